@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "ramify/core/atomic_file.h"
+#include "ramify/core/error.h"
+#include "ramify/core/monitor.h"
+#include "ramify/core/options.h"
+#include "ramify/core/parallel.h"
+#include "ramify/core/random.h"
+#include "ramify/core/types.h"
+#include "support/temp_folder.h"
+
+using namespace ramify;
+
+TEST_CASE("philox gives the published known answers") {
+  // Random123's kat_vectors for philox4x32-10.
+  CHECK(philox4x32({0, 0, 0, 0}, {0, 0}) == std::array<std::uint32_t, 4>{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
+  CHECK(philox4x32({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}) ==
+        std::array<std::uint32_t, 4>{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd});
+  CHECK(philox4x32({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}) ==
+        std::array<std::uint32_t, 4>{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
+}
+
+TEST_CASE("draws have the moments of their distributions") {
+  Rng rng = Rng(7).child("test");
+  const int n = 200000;
+  double mean = 0, square = 0, normal_mean = 0, normal_square = 0;
+  std::array<int, 5> counts{};
+  const std::vector<double> weights{1.0, 0.0, 3.0, -2.0, std::nan("")};
+  std::array<int, 5> drawn{};
+  for (int i = 0; i < n; ++i) {
+    const double u = rng.uniform(), z = rng.normal();
+    mean += u, square += u * u, normal_mean += z, normal_square += z * z;
+    ++counts[rng.below(5)];
+    ++drawn[rng.discrete(weights)];
+  }
+  CHECK(mean / n == Approx(0.5).margin(0.003));
+  CHECK(square / n == Approx(1.0 / 3.0).margin(0.003));
+  CHECK(normal_mean / n == Approx(0.0).margin(0.01));
+  CHECK(normal_square / n == Approx(1.0).margin(0.02));
+  for (const int c : counts) CHECK(c == Approx(n / 5).epsilon(0.03));
+  CHECK(drawn[0] == Approx(n / 4).epsilon(0.03));
+  CHECK(drawn[1] + drawn[3] + drawn[4] == 0);
+}
+
+TEST_CASE("child streams differ from each other and do not depend on what was drawn") {
+  Rng a(1), b(1);
+  b.next();
+  CHECK(a.child("x", 3).next() == b.child("x", 3).next());
+  std::set<std::uint32_t> first;
+  for (int i = 0; i < 1000; ++i) first.insert(a.child("x", i).next());
+  CHECK(first.size() == 1000);
+  CHECK(a.child("x").next() != a.child("y").next());
+  CHECK(Rng(1).next() != Rng(2).next());
+}
+
+TEST_CASE("wrap_angle stays within half a turn and keeps the direction") {
+  for (double a = -20.0; a < 20.0; a += 0.37) {
+    const double w = wrap_angle(a);
+    CHECK(w > -kPi);
+    CHECK(w <= kPi);
+    CHECK(std::cos(w) == Approx(std::cos(a)).margin(1e-9));
+    CHECK(std::sin(w) == Approx(std::sin(a)).margin(1e-9));
+  }
+  CHECK(wrap_angle(-kPi) == Approx(kPi));
+}
+
+TEST_CASE("parallel_for runs every index once and reports the lowest failure") {
+  for (const int threads : {1, 2, 8}) {
+    set_thread_count(threads);
+    std::vector<int> hits(1000, 0);
+    parallel_for(1000, [&](int i) { ++hits[i]; }, 7);
+    CHECK(std::count(hits.begin(), hits.end(), 1) == 1000);
+    std::vector<int> nested(64, 0);
+    parallel_for(8, [&](int i) { parallel_for(8, [&](int j) { ++nested[i * 8 + j]; }); });
+    CHECK(std::count(nested.begin(), nested.end(), 1) == 64);
+    CHECK_THROWS_AS(parallel_for(100, [&](int i) { if (i == 40) throw InputError("f", "bad"); }), InputError);
+  }
+  set_thread_count(0);
+}
+
+TEST_CASE("a monitor reports progress that never falls, books time and stops") {
+  std::vector<double> seen;
+  const Monitor monitor([&](double f, const std::string&) { seen.push_back(f); });
+  {
+    const Monitor grow = monitor.stage("grow", 0.0, 0.5);
+    grow.report(0.0);
+    const Monitor inner = grow.stage("inner", 0.5, 1.0);
+    inner.report(0.0);
+  }
+  const Monitor render = monitor.stage("render", 0.5, 1.0);
+  CHECK(std::is_sorted(seen.begin(), seen.end()));
+  CHECK(seen.back() == Approx(0.5));
+  const auto times = monitor.timings();
+  REQUIRE(times.size() == 2);
+  CHECK(times[0].name == "grow/inner");
+  CHECK(times[1].name == "grow");
+  monitor.cancel();
+  CHECK_THROWS_AS(render.report(0.5), Cancelled);
+}
+
+namespace {
+enum class Taste { Sweet, Sour };
+struct SampleOptions {
+  int count = 3;
+  double size = 2.5;
+  bool loud = false;
+  Taste taste = Taste::Sweet;
+};
+std::vector<OptionField> describe(SampleOptions& o) {
+  return {number("count", o.count, 1, 9, "", "How many."), number("size", o.size, 0.0, 10.0, "px", "How large."),
+          flag("loud", o.loud, "Shout."), choice("taste", o.taste, {"sweet", "sour"}, "Which.")};
+}
+}  // namespace
+
+TEST_CASE("options read and write themselves and name what is wrong") {
+  SampleOptions options;
+  auto fields = describe(options);
+  for (auto& field : fields) set_text(field, get_text(field));
+  CHECK(options.count == 3);
+  CHECK(options.size == 2.5);
+  set_text(fields[3], "sour");
+  CHECK(options.taste == Taste::Sour);
+  CHECK_THROWS_AS(set_text(fields[3], "bitter"), OptionError);
+  for (const char* bad : {"", "0", "10", "1.5", "1e3", "nan", "inf", "0x2", "3 ", "9223372036854775808"}) {
+    CHECK_THROWS_AS(set_text(fields[0], bad), OptionError);
+  }
+  options.size = std::nan("");
+  CHECK_THROWS_AS(check_options(fields), OptionError);
+  try {
+    set_text(fields[1], "11");
+    FAIL("11 is out of range");
+  } catch (const OptionError& error) {
+    CHECK(std::string(error.what()) == "--size '11': expected from 0 to 10 px");
+  }
+}
+
+TEST_CASE("numbers survive the way through text") {
+  Rng rng(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = (rng.uniform() - 0.5) * std::pow(10.0, rng.uniform(-200, 200));
+    double y = 0;
+    REQUIRE(parse_number(number_text(x), y));
+    CHECK(x == y);
+  }
+}
+
+TEST_CASE("atomic files appear whole or not at all") {
+  const TempFolder folder;
+  const std::string path = folder / "a.txt";
+  write_file(path, "old");
+  {
+    AtomicFile file(path);
+    file.write("half of the new");
+    CHECK(read_file(path, 100) == "old");
+  }
+  CHECK(read_file(path, 100) == "old");
+  write_file(path, "new");
+  CHECK(read_file(path, 100) == "new");
+  CHECK(folder.entries() == std::vector<std::string>{"a.txt"});
+  CHECK_THROWS_AS(AtomicFile(folder.path()), OutputError);
+  CHECK_THROWS_AS(AtomicFile(folder / "missing/a.txt"), OutputError);
+  std::filesystem::create_symlink(path, folder / "link");
+  CHECK_THROWS_AS(AtomicFile(folder / "link"), OutputError);
+  CHECK_THROWS_AS(AtomicFile(folder / std::string(300, 'x')), OutputError);
+  {
+    AtomicFile file(folder / "b.txt");
+    remove_unfinished_files();
+    CHECK(folder.entries() == std::vector<std::string>{"a.txt", "link"});
+  }
+}
+
+TEST_CASE("a full disk is an OutputError and leaves nothing") {
+  // Files larger than RLIMIT_FSIZE fail like a full disk does; /dev/full is refused as a device before that.
+  CHECK_THROWS_AS(AtomicFile("/dev/full"), OutputError);
+}
+
+TEST_CASE("read_file refuses what is not a file") {
+  const TempFolder folder;
+  CHECK_THROWS_AS(read_file(folder / "none", 10), InputError);
+  CHECK_THROWS_AS(read_file(folder.path(), 10), InputError);
+  CHECK_THROWS_AS(read_file("/dev/zero", 10), InputError);
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_AS(read_file(folder / "pipe", 10), InputError);
+  write_file(folder / "big", "01234567890");
+  CHECK_THROWS_AS(read_file(folder / "big", 10), LimitError);
+}
+
+TEST_CASE("printable text cannot drive a terminal") {
+  CHECK(printable("plain é…") == "plain é…");
+  CHECK(printable("\x1b[31mred\n") == "\\x1b[31mred\\x0a");
+  CHECK(printable("\xc0\xaf\xed\xa0\x80\xff") == "\\xc0\\xaf\\xed\\xa0\\x80\\xff");
+  CHECK(printable("\xc2\x9b" "2J") == "\\xc2\\x9b2J");
+  CHECK(printable(std::string(500, 'a')).size() < 210);
+}
