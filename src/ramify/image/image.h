@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "ramify/core/types.h"
@@ -47,8 +48,9 @@ class Image {
 
   T* row(int y) { return pixels_.data() + static_cast<std::size_t>(y) * width_; }
   const T* row(int y) const { return pixels_.data() + static_cast<std::size_t>(y) * width_; }
-  std::vector<T>& pixels() { return pixels_; }
-  const std::vector<T>& pixels() const { return pixels_; }
+  std::vector<T>& pixels() & { return pixels_; }
+  const std::vector<T>& pixels() const& { return pixels_; }
+  std::vector<T> pixels() && { return std::move(pixels_); }  // safe to loop over the pixels of a temporary
 
   friend bool operator==(const Image&, const Image&) = default;
 
