@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Everything needed to make a result again: stored in every picture, read back by `replay`. Holds no time, host, thread
+// count or output name.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ramify/core/options.h"
+
+namespace ramify {
+
+struct RecipeInput {
+  std::string role;    // "exemplar", "photo", "annotation", "regions", "density", "guide", "skeleton"
+  std::string file;    // name without folder; "builtin:KIND" for ramify's own exemplars
+  std::string sha256;  // of the file's bytes; empty for builtin
+};
+
+struct Recipe {
+  std::string version;                         // of ramify
+  std::string verb;                            // "synth", "grow", "render"
+  std::uint64_t seed = 1;
+  std::vector<RecipeInput> inputs;
+  std::map<std::string, std::string> options;  // every option of the verb by its name, as text (core/options.h)
+};
+
+std::string recipe_text(const Recipe& recipe);  // JSON
+
+// Throws InputError naming line and column or the JSON path: malformed text, duplicate keys, wrong types, a newer format
+// version ("made by …").
+Recipe parse_recipe(const std::string& json, const std::string& name);
+
+// Every field's value by name.
+std::map<std::string, std::string> option_values(const std::vector<OptionField>& fields);
+
+// Finds the file with this sha256: `hint` in `folder`, then any regular file in `folder`, then the same in RAMIFY_PHOTOS.
+// Throws InputError naming the file, its sha256 and where it was looked for.
+std::string find_input(const RecipeInput& input, const std::string& folder);
+
+}  // namespace ramify
