@@ -33,7 +33,8 @@ LoadedImage decode_image(const std::string& bytes, const std::string& name, cons
 
 struct SaveOptions {
   int bits = 8;                        // 8 or 16 for PNG and TIFF, 8 for JPEG and WebP, 16 (half) or 32 for EXR
-  int quality = 95;                    // JPEG, WebP
+  int quality = 95;                    // JPEG, WebP: 1..100
+  bool dither = false;                 // 8 bits: hide steps in smooth dark skies with one level of fixed noise
   std::string recipe;                  // JSON stored inside the file; JPEG: PATH.recipe.json is written beside it
 };
 
