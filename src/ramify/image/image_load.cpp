@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 
 #include "ramify/core/atomic_file.h"
 #include "ramify/core/error.h"
 #include "ramify/core/parallel.h"
+#include "ramify/image/color.h"
 #include "ramify/image/color_profile.h"
+#include "ramify/image/exr_codec.h"
 #include "ramify/image/image_container.h"
 #include "ramify/image/image_format.h"
 #include "ramify/image/image_io.h"
@@ -19,8 +22,13 @@ namespace {
 ImageContainer read_container(ImageFormat format, const std::string& bytes, const std::string& name) {
   switch (format) {
     case ImageFormat::Png: return read_png_container(bytes, name);
-    default: return read_jpeg_container(bytes, name);
+    case ImageFormat::Jpeg: return read_jpeg_container(bytes, name);
+    case ImageFormat::Tiff: return read_tiff_container(bytes, name);
+    case ImageFormat::Webp: return read_webp_container(bytes, name);
+    case ImageFormat::Exr:
+    case ImageFormat::Unknown: break;
   }
+  throw std::invalid_argument("read_container: no container of ours");
 }
 
 void check_format(ImageFormat format, const std::string& bytes, const std::string& name) {
@@ -30,15 +38,18 @@ void check_format(ImageFormat format, const std::string& bytes, const std::strin
   }
 }
 
-void check_limits(const ImageContainer& file, const std::string& name, const LoadLimits& limits) {
-  if (file.truncated && !limits.allow_truncated) {
-    throw InputError(name, "is cut off before its end; get the whole file, or pass --allow-truncated to use what is there");
-  }
-  const double pixels = double{1} * file.size.width * file.size.height;
+void check_pixels(Size size, const std::string& name, const LoadLimits& limits) {
+  const double pixels = double{1} * size.width * size.height;
   if (pixels > limits.pixels) {
-    throw LimitError(name + ": " + std::to_string(file.size.width) + " x " + std::to_string(file.size.height) +
+    throw LimitError(name + ": " + std::to_string(size.width) + " x " + std::to_string(size.height) +
                      " pixels are more than the limit of " + std::to_string(static_cast<long long>(limits.pixels)) +
                      "; shrink the picture or raise --limit-pixels");
+  }
+}
+
+void check_complete(const ImageContainer& file, const std::string& name, const LoadLimits& limits) {
+  if (file.truncated && !limits.allow_truncated) {
+    throw InputError(name, "is cut off before its end; get the whole file, or pass --allow-truncated to use what is there");
   }
 }
 
@@ -152,24 +163,11 @@ Image<T> oriented(const Image<T>& from, int orientation) {
   return to;
 }
 
-float luminance(const Rgb& c) {
-  return c.r == c.g && c.g == c.b ? c.r : 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
-}
-
-}  // namespace
-
-LoadedImage decode_image(const std::string& bytes, const std::string& path, const LoadLimits& limits) {
-  const std::string name = printable(path, 300);
-  const ImageFormat format = format_of_bytes(bytes);
-  check_format(format, bytes, name);
+LoadedImage decode_container(ImageFormat format, const std::string& bytes, const std::string& name, const LoadLimits& limits) {
   LoadedImage out;
-  out.sha256 = sha256_hex(bytes);
-  const ImageFormat named = format_of_name(path);
-  if (named != format) {
-    out.warnings.push_back("it is a " + std::string(format_name(format)) + " file, whatever its name says");
-  }
   ImageContainer file = read_container(format, bytes, name);
-  check_limits(file, name, limits);
+  check_pixels(file.size, name, limits);
+  check_complete(file, name, limits);
   if (file.truncated) out.warnings.push_back("it is cut off before its end; the missing part was filled");
   out.warnings.insert(out.warnings.end(), file.warnings.begin(), file.warnings.end());
   const Samples samples = decode_samples(format, file.pixels, file.size, limits.allow_truncated, name, out.warnings);
@@ -182,14 +180,36 @@ LoadedImage decode_image(const std::string& bytes, const std::string& path, cons
   return out;
 }
 
+}  // namespace
+
+LoadedImage decode_image(const std::string& bytes, const std::string& path, const LoadLimits& limits) {
+  const std::string name = printable(path, 300);
+  const ImageFormat format = format_of_bytes(bytes);
+  check_format(format, bytes, name);
+  if (format == ImageFormat::Exr) check_pixels(read_exr_size(bytes, name), name, limits);
+  LoadedImage out = format == ImageFormat::Exr ? decode_exr(bytes, limits.allow_truncated, name)
+                                               : decode_container(format, bytes, name, limits);
+  out.sha256 = sha256_hex(bytes);
+  if (format_of_name(path) != format) {
+    out.warnings.insert(out.warnings.begin(), "it is a " + std::string(format_name(format)) + " file, whatever its name says");
+  }
+  return out;
+}
+
 LoadedImage load_image(const std::string& path, const LoadLimits& limits) {
-  return decode_image(read_file(path, limits.file_bytes), path, limits);
+  LoadedImage out = decode_image(read_file(path, limits.file_bytes), path, limits);
+  const std::string recipe = recipe_path(path);
+  if (out.texts.count(kRecipeKey) == 0 && std::filesystem::is_regular_file(recipe)) {
+    out.texts[kRecipeKey] = read_file(recipe, limits.file_bytes);
+  }
+  return out;
 }
 
 ScalarImage load_scalar(const std::string& path, const LoadLimits& limits) {
   const LoadedImage loaded = load_image(path, limits);
   ScalarImage out(loaded.color.size());
-  std::transform(loaded.color.pixels().begin(), loaded.color.pixels().end(), out.pixels().begin(), luminance);
+  std::transform(loaded.color.pixels().begin(), loaded.color.pixels().end(), out.pixels().begin(),
+                 [](const Rgb& c) { return c.r == c.g && c.g == c.b ? c.r : luma(c); });  // grey stays exact
   return out;
 }
 

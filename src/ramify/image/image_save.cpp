@@ -7,9 +7,11 @@
 #include "ramify/core/error.h"
 #include "ramify/core/parallel.h"
 #include "ramify/core/random.h"
+#include "ramify/image/exr_codec.h"
 #include "ramify/image/image_container.h"
 #include "ramify/image/image_format.h"
 #include "ramify/image/image_io.h"
+#include "ramify/image/recipe_xmp.h"
 #include "ramify/image/vips_codec.h"
 
 namespace ramify {
@@ -71,6 +73,35 @@ void require_extension(const std::string& path, ImageFormat format) {
   }
 }
 
+// Whether `image` fits into the format at all, before any work.
+void check_fits(const std::string& path, ImageFormat format, Size size, bool alpha, int bits) {
+  const std::string name = printable(path, 300), kind = format_name(format);
+  if (size.width <= 0 || size.height <= 0) throw OutputError(name, "the picture has no pixels");
+  if (fitting_bits(path, bits) != bits) {
+    throw OptionError("depth", std::to_string(bits), kind + " holds " + std::to_string(fitting_bits(path, bits)) + " bits; choose that depth or another format");
+  }
+  const int longest = format == ImageFormat::Jpeg ? 65500 : format == ImageFormat::Webp ? 16383 : 1 << 30;
+  if (std::max(size.width, size.height) > longest) {
+    throw OutputError(name, kind + " pictures have at most " + std::to_string(longest) + " px a side; write a .png or .tif");
+  }
+  if (alpha && format == ImageFormat::Jpeg) throw OutputError(name, "JPEG cannot hold transparency; write a .png or .tif");
+}
+
+std::string encode_with_vips(ImageFormat format, const ColorImage& image, const Mask* alpha, const SaveOptions& options) {
+  const bool dither = options.dither && options.bits == 8;
+  const std::string file = encode_samples(format, quantize(image, alpha, options.bits, dither), options.quality,
+                                          format == ImageFormat::Png ? "" : xmp_of_recipe(options.recipe));
+  return format == ImageFormat::Png ? png_with_text(file, kRecipeKey, options.recipe) : file;
+}
+
+void save(const std::string& path, const ColorImage& image, const Mask* alpha, const SaveOptions& options) {
+  const std::string bytes = encode_image(path, image, alpha, options);
+  AtomicFile picture(path);
+  picture.write(bytes);
+  if (format_of_name(path) == ImageFormat::Jpeg && !options.recipe.empty()) write_file(recipe_path(path), options.recipe);
+  picture.commit();
+}
+
 }  // namespace
 
 void check_image_name(const std::string& path) {
@@ -78,22 +109,34 @@ void check_image_name(const std::string& path) {
   throw OptionError("output", printable(path, 300), "the name must end with .png, .jpg, .tif, .exr or .webp");
 }
 
-std::string encode_image(const std::string& extension, const ColorImage& image, const Mask* alpha,
-                         const SaveOptions& options) {
-  const std::string png = encode_samples(ImageFormat::Png, quantize(image, alpha, options.bits, options.dither),
-                                         options.quality, "");
-  (void)extension;
-  return png_with_text(png, kRecipeKey, options.recipe);
+int fitting_bits(const std::string& path, int bits) {
+  switch (format_of_name(path)) {
+    case ImageFormat::Png: return bits <= 8 ? 8 : 16;
+    case ImageFormat::Tiff: return bits <= 8 ? 8 : bits <= 16 ? 16 : 32;
+    case ImageFormat::Exr: return bits <= 16 ? 16 : 32;
+    case ImageFormat::Jpeg:
+    case ImageFormat::Webp:
+    case ImageFormat::Unknown: break;
+  }
+  return 8;
+}
+
+std::string recipe_path(const std::string& path) { return path + ".recipe.json"; }
+
+std::string encode_image(const std::string& path, const ColorImage& image, const Mask* alpha, const SaveOptions& options) {
+  check_image_name(path);
+  const ImageFormat format = format_of_name(path);
+  check_fits(path, format, image.size(), alpha != nullptr, options.bits);
+  return format == ImageFormat::Exr ? encode_exr(image, alpha, options.bits, options.recipe)
+                                    : encode_with_vips(format, image, alpha, options);
 }
 
 void save_image(const std::string& path, const ColorImage& image, const SaveOptions& options) {
-  check_image_name(path);
-  write_file(path, encode_image(path, image, nullptr, options));
+  save(path, image, nullptr, options);
 }
 
 void save_image(const std::string& path, const ColorImage& image, const Mask& alpha, const SaveOptions& options) {
-  check_image_name(path);
-  write_file(path, encode_image(path, image, &alpha, options));
+  save(path, image, alpha.empty() ? nullptr : &alpha, options);
 }
 
 void save_mask(const std::string& path, const Mask& mask) {

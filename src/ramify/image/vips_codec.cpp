@@ -56,14 +56,12 @@ VipsPointer open_image(ImageFormat format, std::string_view file, VipsFailOn fai
   return VipsPointer(image);
 }
 
-// 32-bit integers and doubles become floats; what cannot be a photograph is refused.
+// 32-bit integers become floats; what cannot be a photograph is refused.
 VipsPointer to_common_type(VipsPointer image, const std::string& name) {
   const VipsBandFormat format = vips_image_get_format(image.get());
   if (format == VIPS_FORMAT_UCHAR || format == VIPS_FORMAT_USHORT || format == VIPS_FORMAT_FLOAT) return image;
   VipsImage* cast = nullptr;
-  if (format == VIPS_FORMAT_DOUBLE) {
-    vips_cast_float(image.get(), &cast, nullptr);
-  } else if (format == VIPS_FORMAT_UINT) {
+  if (format == VIPS_FORMAT_UINT) {
     vips_linear1(image.get(), &cast, 1.0 / 4294967295.0, 0.0, nullptr);
   } else {
     throw InputError(name, "its samples are signed or complex numbers; convert it to unsigned integers or floats first");
@@ -136,8 +134,8 @@ std::string encode_samples(ImageFormat format, const Samples& samples, int quali
   void* data = nullptr;
   std::size_t size = 0;
   int failed = 1;
-  if (format == ImageFormat::Png) {
-    failed = vips_pngsave_buffer(view.get(), &data, &size, "compression", 6, "filter", VIPS_FOREIGN_PNG_FILTER_ALL,
+  if (format == ImageFormat::Png) {  // on photographs 2.5 times as fast as level 6 with all filters, and 3 % larger
+    failed = vips_pngsave_buffer(view.get(), &data, &size, "compression", 4, "filter", VIPS_FOREIGN_PNG_FILTER_UP,
                                  "strip", TRUE, nullptr);
   } else if (format == ImageFormat::Jpeg) {
     failed = vips_jpegsave_buffer(view.get(), &data, &size, "Q", quality, "optimize_coding", TRUE, "subsample_mode",
@@ -145,9 +143,10 @@ std::string encode_samples(ImageFormat format, const Samples& samples, int quali
   } else if (format == ImageFormat::Tiff) {
     failed = vips_tiffsave_buffer(view.get(), &data, &size, "compression", VIPS_FOREIGN_TIFF_COMPRESSION_DEFLATE,
                                   "predictor", integers ? VIPS_FOREIGN_TIFF_PREDICTOR_HORIZONTAL
-                                                        : VIPS_FOREIGN_TIFF_PREDICTOR_FLOAT, nullptr);
+                                                        : VIPS_FOREIGN_TIFF_PREDICTOR_NONE, nullptr);
   } else if (format == ImageFormat::Webp) {
-    failed = vips_webpsave_buffer(view.get(), &data, &size, "Q", quality, nullptr);
+    failed = vips_webpsave_buffer(view.get(), &data, &size, "Q", quality, "lossless", quality == 100,
+                                  "smart_subsample", TRUE, nullptr);
   }
   const std::unique_ptr<void, decltype(&g_free)> owner(data, g_free);
   if (failed) throw OutputError("picture", "cannot be encoded as " + std::string(format_name(format)) + ": " + take_vips_error());
