@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/compose/candidate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ramify/geometry/registration.h"
+
+namespace ramify {
+namespace {
+
+constexpr std::size_t kShapeSurvivors = 160;  // go on to the dearer terms
+constexpr std::size_t kKept = 24;
+constexpr std::size_t kEnough = 60;           // candidates of nearly the same width
+constexpr int kDiscGrid = 10;                 // disagreement is sampled on 21 x 21 points
+
+Vec2 mirrored(const Vec2& v, bool mirror) { return mirror ? Vec2(-v.x(), v.y()) : v; }
+
+struct Shape {
+  std::array<Vec2, 17> points;
+  std::array<double, 17> radii;
+  std::size_t count = 0;
+};
+
+Shape shape_of(const Fragment& f, bool mirror) {
+  Shape shape;
+  shape.count = f.shape.size();
+  for (std::size_t l = 0; l < shape.count; ++l) {
+    shape.points[l] = mirrored(f.shape[l].offset, mirror);
+    shape.radii[l] = f.shape[l].radius;
+  }
+  return shape;
+}
+
+// Widths that differ by more than a quarter are met half by scaling; finer differences are left to the bending.
+double scale_for(const Fragment& source, const Fragment& target) {
+  const double ratio = target.branch_radius / source.branch_radius;
+  return ratio > 0.8 && ratio < 1.25 ? 1.0 : std::clamp(ratio, 0.67, 1.5);
+}
+
+// Equation 1 of paper 002 per sample, in units of the disc radius. omega_S: 2 in the paper.
+Candidate compare_shapes(const Shape& source, const Shape& target, double scale, double radius, double omega) {
+  Candidate candidate;
+  candidate.scale = scale;
+  std::array<Vec2, 17> scaled;
+  for (std::size_t l = 0; l < source.count; ++l) scaled[l] = scale * source.points[l];
+  const Alignment alignment =
+      align_rotation(std::span(scaled.data(), source.count), std::span(target.points.data(), target.count));
+  double sum = alignment.residual;
+  for (std::size_t l = 0; l < source.count; ++l) {
+    const double d = scale * source.radii[l] - target.radii[l];
+    sum += omega * d * d;
+  }
+  candidate.angle = alignment.angle;
+  candidate.shape = sum / (static_cast<double>(source.count) * radius * radius);
+  return candidate;
+}
+
+bool is_banned(const CandidateContext& context, const Fragment& source, const Fragment& target) {
+  if (context.options.leave_out <= 0.0) return false;
+  const double reach = context.options.leave_out * target.radius;
+  const Vec2 corner(context.library.lab.width() - 1, context.library.lab.height() - 1);
+  for (int mirror = 0; mirror < 4; ++mirror) {
+    Vec2 home = target.centre;
+    if (mirror & 1) home.x() = corner.x() - home.x();
+    if (mirror & 2) home.y() = corner.y() - home.y();
+    if ((source.centre - home).norm() < reach) return true;
+  }
+  return false;
+}
+
+bool same_kind(const Fragment& source, const Fragment& target, bool any_end) {
+  return source.kind == target.kind && (any_end || source.tip == target.tip) &&
+         source.shape.size() == target.shape.size();
+}
+
+std::vector<Candidate> match_shapes(const CandidateContext& context, const Fragment& target, bool any_end) {
+  const PlacementOptions& options = context.options;
+  // A few hundred neighbouring discs correlate up to about 0.25 by chance alone.
+  const double light = 2.0 * std::max(0.0, context.library.light_strength - 0.25);
+  const bool may_mirror = options.mirror && context.library.light_strength < 0.35;
+  const double omega = options.paper_greedy ? 2.0 : 1.0;
+  const Shape wanted = shape_of(target, false);
+  std::vector<Candidate> found;
+  for (const double limit : {0.25, 0.5, 1.0, 3.0, 1e9}) {
+    found.clear();
+    for (std::size_t j = 0; j < context.library.fragments.size(); ++j) {
+      const Fragment& source = context.library.fragments[j];
+      if (!same_kind(source, target, any_end)) continue;
+      if (std::abs(std::log((source.branch_radius + 1.0) / (target.branch_radius + 1.0))) > limit) continue;
+      if (is_banned(context, source, target)) continue;
+      for (int mirror = 0; mirror <= (may_mirror ? 1 : 0); ++mirror) {
+        Candidate c = compare_shapes(shape_of(source, mirror), wanted, scale_for(source, target), target.radius, omega);
+        c.source = static_cast<int>(j);
+        c.mirrored = mirror;
+        c.cost = c.shape;
+        if (!options.paper_greedy) {
+          c.cost += light * (1.0 - std::cos(c.angle));
+          if (c.scale != 1.0) c.cost += 0.2 * std::log(c.scale) * std::log(c.scale);
+          const double usual = context.usual_contrast[j];
+          const double faint = usual > 0.0 ? std::max(0.0, 0.9 - source.contrast / usual) : 0.0;
+          c.cost += options.contrast_weight * faint * faint;
+        }
+        found.push_back(c);
+      }
+    }
+    if (found.size() >= kEnough) break;
+  }
+  return found;
+}
+
+void keep_best(std::vector<Candidate>& candidates, std::size_t count) {
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  if (candidates.size() > count) candidates.resize(count);
+}
+
+// Share of the disc where one has a branch and the other has none; places the photo does not have count as well.
+double mask_disagreement(const CandidateContext& context, const Fragment& target, const Candidate& c) {
+  const FragmentLibrary& library = context.library;
+  const Fragment& source = library.fragments[c.source];
+  double bad = 0.0;
+  int count = 0;
+  for (int gy = -kDiscGrid; gy <= kDiscGrid; ++gy) {
+    for (int gx = -kDiscGrid; gx <= kDiscGrid; ++gx) {
+      if (gx * gx + gy * gy > kDiscGrid * kDiscGrid) continue;
+      const Vec2 offset = target.radius / kDiscGrid * Vec2(gx, gy);
+      const int x = static_cast<int>(std::lround(target.centre.x() + offset.x()));
+      const int y = static_cast<int>(std::lround(target.centre.y() + offset.y()));
+      if (!context.field.signed_distance.contains(x, y)) continue;
+      ++count;
+      const Vec2 p = source.centre + photo_offset(c, offset);
+      const int u = static_cast<int>(std::lround(p.x())), v = static_cast<int>(std::lround(p.y()));
+      if (!library.lab.contains(u, v) || library.unusable(u, v)) {
+        bad += 1.0;
+        continue;
+      }
+      const float a = library.field.signed_distance(u, v), b = context.field.signed_distance(x, y);
+      if ((a > 0) != (b > 0) && (std::abs(a) > 1 || std::abs(b) > 1)) {
+        bad += 1.0;
+      } else if (b > 2 && library.shadow(u, v)) {
+        bad += 0.5;
+      }
+    }
+  }
+  return count > 0 ? bad / count : 1.0;
+}
+
+double tone_difference(const CandidateContext& context, const Fragment& target, const Fragment& source) {
+  if (context.canvas_low.empty()) return 0.0;
+  auto at = [](const ColorImage& image, const Vec2& p) {
+    return image.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+  };
+  const Rgb d = at(context.canvas_low, target.centre) - at(context.photo_low, source.centre);
+  return (d.r * d.r + d.g * d.g + d.b * d.b) / 100.0;
+}
+
+}  // namespace
+
+Vec2 photo_offset(const Candidate& candidate, const Vec2& canvas_offset) {
+  return mirrored(rotated(canvas_offset, -candidate.angle) / candidate.scale, candidate.mirrored);
+}
+
+std::vector<Candidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index) {
+  std::vector<Candidate> candidates = match_shapes(context, target, false);
+  // A photo without a single free end: the branch is cut off where it has to end.
+  if (candidates.empty() && target.kind == FragmentKind::Along) candidates = match_shapes(context, target, true);
+  keep_best(candidates, kShapeSurvivors);
+  const PlacementOptions& options = context.options;
+  if (options.paper_greedy) return candidates;
+  for (Candidate& c : candidates) {
+    c.disagreement = mask_disagreement(context, target, c);
+    c.cost += options.mask_weight * c.disagreement;
+    c.cost += options.colour_weight * tone_difference(context, target, context.library.fragments[c.source]);
+    const double u = hash01(context.seed, target_index, 2 * c.source + c.mirrored);
+    c.cost -= options.variation * -std::log(-std::log(u * 0.999 + 0.0005));
+  }
+  keep_best(candidates, kKept);
+  return candidates;
+}
+
+double overlap_difference(const FragmentLibrary& library, const ColorImage& photo, const Fragment& target_a,
+                          const Candidate& a, const Fragment& target_b, const Candidate& b) {
+  const Vec2 way = target_b.centre - target_a.centre;
+  const double distance = way.norm(), ra = target_a.radius, rb = target_b.radius;
+  if (distance < 1e-6 || distance >= ra + rb) return 0.0;
+  const Vec2 along = way / distance, across = perpendicular(along);
+  const double middle = (distance * distance + ra * ra - rb * rb) / (2.0 * distance);
+  const double half_height = std::sqrt(std::max(1.0, ra * ra - middle * middle));
+  const double depth = std::min(ra, distance) - std::max(distance - rb, 0.0);
+  Rgb mean;
+  double sum = 0.0;
+  int count = 0;
+  for (int i = -4; i <= 4; ++i) {
+    for (int k = -1; k <= 1; ++k) {
+      const Vec2 w = target_a.centre + (middle + 0.15 * k * depth) * along + (half_height * i / 4.5) * across;
+      const Vec2 p = library.fragments[a.source].centre + photo_offset(a, w - target_a.centre);
+      const Vec2 q = library.fragments[b.source].centre + photo_offset(b, w - target_b.centre);
+      const int px = static_cast<int>(std::lround(p.x())), py = static_cast<int>(std::lround(p.y()));
+      const int qx = static_cast<int>(std::lround(q.x())), qy = static_cast<int>(std::lround(q.y()));
+      if (!photo.contains(px, py) || !photo.contains(qx, qy)) continue;
+      const Rgb d = photo(px, py) - photo(qx, qy);
+      mean = mean + d;
+      sum += d.r * d.r + d.g * d.g + d.b * d.b;
+      ++count;
+    }
+  }
+  if (count == 0) return 500.0;
+  mean = 1.0f / static_cast<float>(count) * mean;
+  return sum / count - 0.7 * (mean.r * mean.r + mean.g * mean.g + mean.b * mean.b);
+}
+
+}  // namespace ramify

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How well a source disc would stand in for a target disc.
+#pragma once
+
+#include <vector>
+
+#include "ramify/compose/placement.h"
+
+namespace ramify {
+
+struct Candidate {
+  int source = kNone;
+  bool mirrored = false;
+  double angle = 0.0;         // rad
+  double scale = 1.0;
+  double shape = 0.0;         // squared px per sample, relative to the disc radius (paper 002, equation 1)
+  double disagreement = 0.0;  // 0..1
+  double cost = 0.0;          // all terms that do not depend on other choices
+};
+
+// What all targets are compared with.
+struct CandidateContext {
+  const FragmentLibrary& library;
+  const BranchField& field;            // of the canvas
+  const PlacementOptions& options;
+  std::vector<double> usual_contrast;  // of the sources' radius class, by fragment
+  ColorImage photo_low, canvas_low;    // low-pass Lab; canvas_low may be empty
+  std::uint64_t seed = 0;
+};
+
+// The offset from the source's centre on the photo that an offset from the target's centre is taken from, unbent.
+Vec2 photo_offset(const Candidate& candidate, const Vec2& canvas_offset);
+
+// The best candidates of a target, best first; empty when the photo has nothing of its kind.
+std::vector<Candidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index);
+
+// Mean squared Lab difference of two overlapping discs within their overlap, most of the mean offset taken out (blending
+// removes offsets); 0 when they do not overlap. `photo` is the slightly blurred Lab photo.
+double overlap_difference(const FragmentLibrary& library, const ColorImage& photo, const Fragment& target_a,
+                          const Candidate& a, const Fragment& target_b, const Candidate& b);
+
+}  // namespace ramify

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The compositor on photos drawn here, where every pixel's truth is known.
+#include <catch2/catch.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "ramify/compose/paste.h"
+#include "ramify/core/parallel.h"
+#include "ramify/geometry/registration.h"
+#include "ramify/image/filter.h"
+
+using namespace ramify;
+
+namespace {
+
+constexpr Rgb kGround{0.6f, 0.55f, 0.5f}, kCrack{0.15f, 0.12f, 0.1f};
+
+void add_line(Skeleton& s, Vec2 from, Vec2 to, double radius, int parent = kNone) {
+  const int steps = static_cast<int>((to - from).norm() / 4.0);
+  for (int i = parent == kNone ? 0 : 1; i <= steps; ++i) {
+    const Vec2 p = from + (to - from) * (static_cast<double>(i) / steps);
+    parent = s.append({Vec3(p.x(), p.y(), 0.0), radius, parent});
+  }
+}
+
+// A wavy main branch with one child, grained ground, dark branches.
+Skeleton wavy_skeleton(Size size, double radius) {
+  Skeleton s(size);
+  int parent = kNone, fork = kNone;
+  for (int x = 2; x < size.width - 2; x += 4) {
+    const double y = 0.35 * size.height + 9.0 * std::sin(x / 23.0);
+    parent = s.append({Vec3(x, y, 0.0), radius + 0.4 * std::sin(x / 17.0), parent});
+    if (fork == kNone && x > size.width / 2) fork = parent;
+  }
+  add_line(s, s[fork].xy(), s[fork].xy() + Vec2(30, 0.5 * size.height), 0.7 * radius, fork);
+  return s;
+}
+
+Exemplar drawn_exemplar(const Skeleton& skeleton, std::uint64_t seed) {
+  Exemplar exemplar;
+  exemplar.skeleton = skeleton;
+  exemplar.photo.name = "drawn";
+  exemplar.photo.color = ColorImage(skeleton.size);
+  const BranchField field = measure_branch_field(branch_curves(skeleton), skeleton.size);
+  for (int y = 0; y < skeleton.size.height; ++y) {
+    for (int x = 0; x < skeleton.size.width; ++x) {
+      const float inside = std::clamp(0.5f - field.signed_distance(x, y), 0.0f, 1.0f);
+      const float grain = static_cast<float>(0.08 * (hash01(seed, x, y) - 0.5));
+      exemplar.photo.color(x, y) = (1.0f - inside) * kGround + inside * kCrack + Rgb{grain, grain, grain};
+    }
+  }
+  return exemplar;
+}
+
+ColorImage grained_ground(Size size, std::uint64_t seed) {
+  ColorImage image(size);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const float grain = static_cast<float>(0.08 * (hash01(seed, x, y) - 0.5));
+      image(x, y) = kGround + Rgb{grain, grain, grain};
+    }
+  }
+  return image;
+}
+
+struct Dressed {
+  FragmentLibrary library;
+  PlacementPlan plan;
+  PasteResult result;
+};
+
+Dressed dress(const Exemplar& exemplar, const Skeleton& target, const PlacementOptions& options = {},
+              const PasteOptions& paste = {}, std::uint64_t seed = 1) {
+  Dressed d;
+  const TargetOptions targets;
+  d.library = make_fragment_library(exemplar, {}, {}, targets.fragment);
+  const ColorImage ground = grained_ground(target.size, 77);
+  d.plan = place_fragments(d.library, target, ground, targets, options, Rng(seed), Monitor());
+  d.result = paste_fragments(exemplar.photo.color, d.library, d.plan, ground, paste, Monitor());
+  return d;
+}
+
+Skeleton turned(const Skeleton& s, double angle, Size size) {
+  Skeleton result(size);
+  const Vec2 from(s.size.width / 2.0, s.size.height / 2.0), to(size.width / 2.0, size.height / 2.0);
+  for (const Node& node : s.nodes()) {
+    Node copy = node;
+    const Vec2 p = to + rotated(node.xy() - from, angle);
+    copy.position = Vec3(p.x(), p.y(), 0.0);
+    result.append(copy);
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("the branch field agrees with distances measured one by one") {
+  const Size size{90, 70};
+  const std::vector<BranchCurve> curves = branch_curves(wavy_skeleton(size, 3.0));
+  const BranchField field = measure_branch_field(curves, size);
+  double worst_edge = 0.0, worst_centre = 0.0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      double edge = 1e9, centre = 1e9;
+      for (const BranchCurve& curve : curves) {
+        for (int i = 0; i < curve.count(); ++i) {
+          const double d = (curve.points[i] - Vec2(x, y)).norm();
+          edge = std::min(edge, d - curve.radii[i]);
+          centre = std::min(centre, d);
+        }
+      }
+      if (edge < 3.5) worst_edge = std::max(worst_edge, std::abs(edge - field.signed_distance(x, y)));
+      if (edge >= 3.5) CHECK(field.signed_distance(x, y) == Approx(edge).margin(1.5));
+      worst_centre = std::max(worst_centre, std::abs(centre - field.centre_distance(x, y)));
+    }
+  }
+  CHECK(worst_edge < 0.05);
+  CHECK(worst_centre < 0.6);
+}
+
+TEST_CASE("an end just short of another branch is joined and no tip") {
+  Skeleton s(Size{120, 80});
+  add_line(s, {0, 20}, {119, 20}, 2.0);
+  add_line(s, {60, 75}, {60, 29}, 2.0);
+  CHECK_FALSE(branch_curves(s)[1].tip);
+  CHECK(branch_curves(s)[1].points.back().y() < 22.0);
+  CHECK(branch_curves(s, {2.5, 0.0})[1].tip);
+  Skeleton away(Size{120, 80});
+  add_line(away, {0, 20}, {119, 20}, 2.0);
+  add_line(away, {60, 75}, {60, 45}, 2.0);
+  CHECK(branch_curves(away)[1].tip);
+}
+
+TEST_CASE("discs grow with the branch only within the clamp and the paper's rule stays available") {
+  FragmentOptions options;
+  CHECK(disc_radius(1.0, options) == Approx(9.0));
+  CHECK(disc_radius(10.0, options) == Approx(30.0));
+  CHECK(disc_radius(80.0, options) == Approx(120.0));
+  options.paper_spacing = true;
+  CHECK(disc_radius(10.0, options) == Approx(30.0));
+  CHECK(disc_radius(80.0, options) == Approx(240.0));
+}
+
+TEST_CASE("thin children give side fragments and strong ones junctions") {
+  for (const double child : {1.5, 6.0}) {
+    Skeleton s(Size{300, 300});
+    int parent = kNone;
+    for (int x = 0; x < 300; x += 4) parent = s.append({Vec3(x, 100, 0), 10.0, parent});
+    add_line(s, {160, 100}, {170, 280}, child, 40);
+    const auto f = furcation_fragment(branch_curves(s), 1, {});
+    REQUIRE(f);
+    CHECK(f->kind == (child < 4.0 ? FragmentKind::Side : FragmentKind::Junction));
+    CHECK(f->shape.size() == 17);
+    if (child < 4.0) CHECK(std::abs(f->centre.y() - 110.0) < 2.5);
+  }
+}
+
+TEST_CASE("a branch turned by any angle is dressed whole and nowhere else") {
+  const Exemplar exemplar = drawn_exemplar(wavy_skeleton({260, 180}, 3.5), 5);
+  for (const double angle : {0.0, 0.7, 2.0}) {
+    const Skeleton target = turned(exemplar.skeleton, angle, {300, 300});
+    const Dressed d = dress(exemplar, target);
+    CHECK(d.plan.placements.size() == d.plan.targets.fragments.size());
+    int inside = 0, dark_inside = 0, dark_outside = 0;
+    for (int y = 0; y < 300; ++y) {
+      for (int x = 0; x < 300; ++x) {
+        const float distance = d.plan.field.signed_distance(x, y);
+        const bool dark = d.result.color(x, y).g < 0.33f;
+        if (distance < -1.0f) {
+          ++inside;
+          dark_inside += dark;
+        } else if (distance > 1.5f) {
+          dark_outside += dark;
+        }
+      }
+    }
+    CHECK(d.result.uncovered < 0.005 * inside);
+    CHECK(dark_inside > 0.97 * inside);
+    CHECK(dark_outside < 0.01 * inside);
+  }
+}
+
+TEST_CASE("every owned pixel names the photo pixel it was taken from") {
+  const Exemplar exemplar = drawn_exemplar(wavy_skeleton({220, 160}, 3.0), 6);
+  const Dressed d = dress(exemplar, turned(exemplar.skeleton, 0.4, {240, 240}));
+  int owned = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 240; ++x) {
+      const int owner = d.result.owner(x, y);
+      const Eigen::Vector2f from = d.result.source(x, y);
+      CHECK((owner == kNone) == std::isnan(from.x()));
+      if (owner == kNone) continue;
+      ++owned;
+      CHECK((from.x() > -1 && from.y() > -1 && from.x() < 220 && from.y() < 160));
+    }
+  }
+  CHECK(owned > 1000);
+}
+
+TEST_CASE("sources near their own place are banned when asked") {
+  const Exemplar exemplar = drawn_exemplar(wavy_skeleton({320, 200}, 3.0), 7);
+  PlacementOptions options;
+  options.leave_out = 3.0;
+  const Dressed d = dress(exemplar, exemplar.skeleton, options);
+  REQUIRE_FALSE(d.plan.placements.empty());
+  for (const Placement& p : d.plan.placements) {
+    CHECK((d.library.fragments[p.source].centre - p.centre).norm() >= 3.0 * p.radius);
+  }
+}
+
+TEST_CASE("seeds change choices and threads do not") {
+  const Exemplar exemplar = drawn_exemplar(wavy_skeleton({260, 180}, 3.0), 8);
+  const Skeleton target = turned(exemplar.skeleton, 1.0, {260, 260});
+  set_thread_count(1);
+  const Dressed one = dress(exemplar, target);
+  set_thread_count(3);
+  const Dressed three = dress(exemplar, target);
+  set_thread_count(0);
+  CHECK(one.result.color == three.result.color);
+  CHECK(one.result.owner == three.result.owner);
+  const Dressed other = dress(exemplar, target, {}, {}, 2);
+  int different = 0;
+  for (std::size_t i = 0; i < one.plan.placements.size(); ++i) {
+    different += one.plan.placements[i].source != other.plan.placements[i].source;
+  }
+  CHECK(different > 0);
+}
+
+TEST_CASE("any skeleton can be dressed: its radii are brought into the photo's range") {
+  const Exemplar exemplar = drawn_exemplar(wavy_skeleton({260, 180}, 3.0), 9);
+  const FragmentLibrary library = make_fragment_library(exemplar, {}, {}, {});
+  const Skeleton same = match_radii(exemplar.skeleton, library);
+  for (int i = 0; i < same.count(); ++i) CHECK(same[i].radius == exemplar.skeleton[i].radius);
+  Skeleton thick(Size{600, 400});
+  int parent = kNone;
+  for (int x = 0; x < 600; x += 5) parent = thick.append({Vec3(x, 200, 0), 20.0 + x / 20.0, parent});
+  const Skeleton mapped = match_radii(thick, library);
+  for (int i = 1; i < mapped.count(); ++i) CHECK(mapped[i].radius >= mapped[i - 1].radius);
+  CHECK(mapped[mapped.count() - 1].radius < 1.25 * library.thickest);
+  CHECK(mapped[0].radius > 0.8 * library.thinnest);
+}
+
+TEST_CASE("placements are maps any layer can be read through") {
+  // The photo's own coordinates as a layer: read through the placement they must land on the shape samples.
+  const Exemplar exemplar = drawn_exemplar(wavy_skeleton({260, 180}, 3.5), 10);
+  const Dressed d = dress(exemplar, turned(exemplar.skeleton, -0.8, {280, 280}));
+  for (const Placement& p : d.plan.placements) {
+    const Fragment& target = d.plan.targets.fragments[p.target];
+    const Fragment& source = d.library.fragments[p.source];
+    const Vec2 mapped = p.photo_from_canvas(target.centre);
+    CHECK((mapped - source.centre).norm() < 1.0);
+    for (std::size_t l = 0; l < target.shape.size(); ++l) {
+      if (target.shape[l].offset.norm() > 0.8 * target.radius) continue;
+      const Vec2 there = p.photo_from_canvas(target.centre + target.shape[l].offset);
+      CHECK((there - source.centre - source.shape[l].offset).norm() < 0.12 * target.radius + 0.5);
+    }
+  }
+}
