@@ -3,9 +3,10 @@
 
 #include <lcms2.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "ramify/image/color.h"
 
 namespace ramify {
 namespace {
@@ -23,6 +24,18 @@ ModelTraits traits_of(ColorModel model) {
   return {cmsSigCmykData, TYPE_CMYK_FLT};
 }
 
+// sRGB's primaries with linear light. Little CMS extends the sRGB curve below zero along a straight line; we encode with
+// our own curve, which mirrors it.
+cmsHPROFILE linear_srgb_profile() {
+  const cmsCIExyY white{0.3127, 0.3290, 1.0};
+  const cmsCIExyYTRIPLE primaries{{0.64, 0.33, 1.0}, {0.30, 0.60, 1.0}, {0.15, 0.06, 1.0}};
+  cmsToneCurve* line = cmsBuildGamma(nullptr, 1.0);
+  cmsToneCurve* lines[3] = {line, line, line};
+  cmsHPROFILE profile = cmsCreateRGBProfile(&white, &primaries, lines);
+  cmsFreeToneCurve(line);
+  return profile;
+}
+
 }  // namespace
 
 ColorProfile::ColorProfile(const std::string& icc, ColorModel model) : model_(model) {
@@ -31,7 +44,7 @@ ColorProfile::ColorProfile(const std::string& icc, ColorModel model) : model_(mo
   cmsHPROFILE from = cmsOpenProfileFromMem(icc.data(), static_cast<cmsUInt32Number>(icc.size()));
   if (!from) return;
   if (cmsGetColorSpace(from) == traits.space) {
-    cmsHPROFILE to = cmsCreate_sRGBProfile();
+    cmsHPROFILE to = linear_srgb_profile();
     transform_ = cmsCreateTransform(from, traits.type, to, TYPE_RGB_FLT, INTENT_RELATIVE_COLORIMETRIC,
                                     cmsFLAGS_NOCACHE | cmsFLAGS_NOOPTIMIZE);
     cmsCloseProfile(to);
@@ -51,7 +64,7 @@ bool ColorProfile::changes_nothing() const {
   for (int r = 0; r <= kSteps; ++r) {
     for (int g = 0; g <= (grey ? 0 : kSteps); ++g) {
       for (int b = 0; b <= (grey ? 0 : kSteps); ++b) {
-        const float in[3] = {r / float{kSteps}, g / float{kSteps}, b / float{kSteps}};
+        const float in[4] = {r / float{kSteps}, g / float{kSteps}, b / float{kSteps}, 0.0f};  // as wide as any model
         Rgb out;
         convert(in, &out, 1);
         for (int c = 0; c < 3; ++c) {
@@ -64,13 +77,16 @@ bool ColorProfile::changes_nothing() const {
 }
 
 void ColorProfile::convert(const float* from, Rgb* to, int count) const {
-  if (model_ != ColorModel::Cmyk) {
-    cmsDoTransform(transform_, from, to, static_cast<cmsUInt32Number>(count));
-    return;
+  std::vector<float> percent;
+  if (model_ == ColorModel::Cmyk) {  // Little CMS counts ink in percent
+    percent.assign(from, from + 4 * static_cast<std::size_t>(count));
+    for (float& ink : percent) ink *= 100.0f;
+    from = percent.data();
   }
-  std::vector<float> percent(from, from + 4 * static_cast<std::size_t>(count));  // Little CMS counts ink in percent
-  for (float& ink : percent) ink *= 100.0f;
-  cmsDoTransform(transform_, percent.data(), to, static_cast<cmsUInt32Number>(count));
+  cmsDoTransform(transform_, from, to, static_cast<cmsUInt32Number>(count));
+  for (int i = 0; i < count; ++i) {
+    for (int c = 0; c < 3; ++c) to[i][c] = srgb_from_linear(to[i][c]);
+  }
 }
 
 }  // namespace ramify

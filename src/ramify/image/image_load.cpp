@@ -199,7 +199,8 @@ LoadedImage decode_image(const std::string& bytes, const std::string& path, cons
 LoadedImage load_image(const std::string& path, const LoadLimits& limits) {
   LoadedImage out = decode_image(read_file(path, limits.file_bytes), path, limits);
   const std::string recipe = recipe_path(path);
-  if (out.texts.count(kRecipeKey) == 0 && std::filesystem::is_regular_file(recipe)) {
+  std::error_code ignored;
+  if (out.texts.count(kRecipeKey) == 0 && std::filesystem::is_regular_file(recipe, ignored)) {
     out.texts[kRecipeKey] = read_file(recipe, limits.file_bytes);
   }
   return out;
