@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ramify/exemplar/line_finder.h"
+#include "ramify/skeleton/thickness.h"
+
+namespace ramify {
+namespace {
+
+constexpr double kNoiseFactor = 8.0;  // a line starts at this many times the median response
+constexpr double kLowShare = 0.35;    // and goes on at this share of it (ALGORITHMS 3.3-3)
+
+double median_positive(const ScalarImage& image, const Mask& excluded) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+    if (image.pixels()[i] > 0.0f && (excluded.empty() || !excluded.pixels()[i])) values.push_back(image.pixels()[i]);
+  }
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Excluded pixels take the value of the nearest allowed pixel of their row or column, so that their rim is no line.
+ScalarImage filled_from_rim(ScalarImage picture, const Mask& excluded) {
+  if (excluded.empty()) return picture;
+  const Image<std::uint8_t>& hole = excluded;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      if (!hole(x, y)) continue;
+      const int reach = std::max(picture.width(), picture.height());
+      for (int d = 1; d < reach; ++d) {
+        bool found = false;
+        for (const auto& [dx, dy] : {std::pair{d, 0}, {-d, 0}, {0, d}, {0, -d}}) {
+          if (found || !hole.contains(x + dx, y + dy) || hole(x + dx, y + dy)) continue;
+          picture(x, y) = picture(x + dx, y + dy);
+          found = true;
+        }
+        if (found) break;
+      }
+    }
+  }
+  return picture;
+}
+
+// Otsu's threshold: the cut that separates two classes of values best.
+float otsu_threshold(const ScalarImage& image, const Mask& excluded) {
+  const auto [low, high] = std::minmax_element(image.pixels().begin(), image.pixels().end());
+  const float bottom = *low, span = std::max(*high - *low, 1e-6f);
+  std::array<double, 256> histogram{};
+  double total = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+    if (!excluded.empty() && excluded.pixels()[i]) continue;
+    const int bin = std::min(255, static_cast<int>((image.pixels()[i] - bottom) / span * 256.0f));
+    histogram[bin] += 1.0;
+    total += 1.0;
+    sum += bin;
+  }
+  double below = 0.0, sum_below = 0.0, best = -1.0;
+  int cut = 0;
+  for (int bin = 0; bin < 255; ++bin) {
+    below += histogram[bin];
+    sum_below += bin * histogram[bin];
+    if (below == 0.0 || below == total) continue;
+    const double gap = sum_below / below - (sum - sum_below) / (total - below);
+    const double between = below * (total - below) * gap * gap;
+    if (between > best) {
+      best = between;
+      cut = bin;
+    }
+  }
+  return bottom + span * (static_cast<float>(cut) + 1.0f) / 256.0f;
+}
+
+Mask inverted(const Mask& mask) {
+  Mask out(mask.size());
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) out.pixels()[i] = mask.pixels()[i] ? 0 : 255;
+  return out;
+}
+
+// Pixels within `radius` of the mask.
+Mask grown(const Mask& mask, double radius) {
+  const ScalarImage away = distance_inside(inverted(mask));
+  Mask out(mask.size());
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) out.pixels()[i] = away.pixels()[i] <= radius ? 255 : 0;
+  return out;
+}
+
+// Components (4-connected) of `mask` with fewer than `area` pixels are removed.
+Mask without_specks(const Mask& mask, double area) {
+  Mask out = mask;
+  Mask seen(mask.size());
+  for (int y = 0; y < mask.height(); ++y) {
+    for (int x = 0; x < mask.width(); ++x) {
+      if (!mask(x, y) || seen(x, y)) continue;
+      std::vector<std::pair<int, int>> piece{{x, y}};
+      seen(x, y) = 255;
+      for (std::size_t i = 0; i < piece.size(); ++i) {
+        const auto [px, py] = piece[i];
+        for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+          const int u = px + dx, v = py + dy;
+          if (!mask.contains(u, v) || !mask(u, v) || seen(u, v)) continue;
+          seen(u, v) = 255;
+          piece.emplace_back(u, v);
+        }
+      }
+      if (static_cast<double>(piece.size()) >= area) continue;
+      for (const auto& [px, py] : piece) out(px, py) = 0;
+    }
+  }
+  return out;
+}
+
+// Two classes by Otsu; of them the part that is thicker than `core` px, regrown within the class.
+Mask thick_branches(const ScalarImage& picture, bool bright, double core, const Mask& excluded) {
+  const float cut = otsu_threshold(picture, excluded);
+  Mask mask(picture.size());
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    const bool inside = (picture.pixels()[i] > cut) == bright && (excluded.empty() || !excluded.pixels()[i]);
+    mask.pixels()[i] = inside ? 255 : 0;
+  }
+  mask = inverted(without_specks(inverted(mask), 4.0 * core * core));  // fill holes < (2 r)^2
+  const ScalarImage depth = distance_inside(mask);
+  Mask kernel(mask.size());
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) kernel.pixels()[i] = depth.pixels()[i] >= core ? 255 : 0;
+  kernel = without_specks(kernel, 4.0 * core);
+  Mask opened = grown(kernel, core + 1.0);
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) opened.pixels()[i] = opened.pixels()[i] && mask.pixels()[i] ? 255 : 0;
+  return opened;
+}
+
+}  // namespace
+
+RidgeEvidence gather_evidence(const ColorImage& photo, const Mask& excluded, const TraceOptions& options,
+                              const Monitor& monitor) {
+  const Polarity wanted = static_cast<Polarity>(std::max(0, static_cast<int>(options.polarity) - 1));
+  const ChannelChoice choice =
+      choose_channel(photo, excluded, options.max_radius, options.channel,
+                     options.polarity == TracePolarity::Auto ? nullptr : &wanted, monitor);
+  RidgeEvidence e;
+  e.picture = filled_from_rim(channel_picture(photo, choice.channel), excluded);
+  e.bright = choice.polarity != Polarity::Dark;
+  e.glow = choice.polarity == Polarity::Glow;
+  RidgeOptions ridge{e.bright, std::max(0.7, 0.8 * options.min_radius), std::max(1.0, options.max_radius)};
+  const bool flatten = options.flatten && !e.glow;
+  e.field = ridge_field(flatten ? flattened(e.picture, 4.0 * options.max_radius) : e.picture, ridge, monitor);
+  e.high = std::max(kNoiseFactor * median_positive(e.field.strength, excluded), 1e-3) / options.sensitivity;
+  e.low = kLowShare * e.high;
+  e.thick = options.mode == TraceMode::Ridge
+                ? Mask(photo.size())
+                : thick_branches(e.picture, e.bright,
+                                 options.mode == TraceMode::Mask ? options.min_radius : 0.8 * options.max_radius, excluded);
+  monitor.check();
+  e.radius = distance_inside(e.thick);
+  for (std::size_t i = 0; i < e.radius.pixels().size(); ++i) {
+    if (!e.thick.pixels()[i]) e.radius.pixels()[i] = e.field.sigma.pixels()[i];
+  }
+  return e;
+}
+
+}  // namespace ramify
