@@ -35,7 +35,8 @@ Recipe parse_recipe(const std::string& json, const std::string& name);
 // Every field's value by name.
 std::map<std::string, std::string> option_values(const std::vector<OptionField>& fields);
 
-// Finds the file with this sha256: `hint` in `folder`, then any regular file in `folder`, then the same in RAMIFY_PHOTOS.
+// The path of the regular file with this sha256: the one of this name in `folder`, then any with the same extension there,
+// then the same in RAMIFY_PHOTOS. Digests are remembered for the life of the program. For builtin: just the name.
 // Throws InputError naming the file, its sha256 and where it was looked for.
 std::string find_input(const RecipeInput& input, const std::string& folder);
 
