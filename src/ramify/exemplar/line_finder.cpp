@@ -67,10 +67,11 @@ std::vector<Vec2> pixel_points(const std::vector<Pixel>& pixels) {
   return points;
 }
 
-Pixel snapped(const RidgeEvidence& e, const Vec2& p, double snap) {
+Pixel snapped(const RidgeEvidence& e, const Vec2& p, double snap, const Mask& fixed) {
   const int cx = std::clamp(static_cast<int>(std::lround(p.x())), 0, e.picture.width() - 1);
   const int cy = std::clamp(static_cast<int>(std::lround(p.y())), 0, e.picture.height() - 1);
   Pixel best{cx, cy};
+  if (!fixed.empty() && fixed(cx, cy)) return best;
   double best_value = -1.0;
   const int reach = static_cast<int>(snap);
   for (int y = cy - reach; y <= cy + reach; ++y) {
@@ -91,7 +92,7 @@ Pixel snapped(const RidgeEvidence& e, const Vec2& p, double snap) {
 
 Mask find_lines(const RidgeEvidence& e, const Mask& excluded, const TraceOptions& options, const Monitor& monitor) {
   Mask anchors(e.picture.size());
-  if (options.mode != TraceMode::Mask) {
+  if (options.mode != TraceMode::Area) {
     anchors = long_crests(crests(e.field.strength, e.field.tangent, e.low, excluded), e.field.strength, e.low,
                           e.high, 0.4 * options.min_length);
   }
@@ -128,10 +129,10 @@ LatticeCosts live_wire_costs(const RidgeEvidence& e) {
 }
 
 std::vector<Pixel> live_wire(const RidgeEvidence& e, const LatticeCosts& costs, const std::vector<Vec2>& points,
-                             double snap, const Monitor& monitor) {
-  std::vector<Pixel> path{snapped(e, points.front(), snap)};
+                             double snap, const Mask& fixed, const Monitor& monitor) {
+  std::vector<Pixel> path{snapped(e, points.front(), snap, fixed)};
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const Pixel from = path.back(), to = snapped(e, points[i], snap);
+    const Pixel from = path.back(), to = snapped(e, points[i], snap, fixed);
     const int grow = 32 + std::max(std::abs(from.x - to.x), std::abs(from.y - to.y)) / 4;
     PixelBox box{std::min(from.x, to.x) - grow, std::min(from.y, to.y) - grow, std::max(from.x, to.x) + grow,
                  std::max(from.y, to.y) + grow};

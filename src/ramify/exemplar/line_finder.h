@@ -33,9 +33,10 @@ Mask find_lines(const RidgeEvidence& evidence, const Mask& excluded, const Trace
 // Pixel costs of ALGORITHMS 3.1: 0.02 + (1 - V)^2, times 1024.
 LatticeCosts live_wire_costs(const RidgeEvidence& evidence);
 
-// The cheapest way through the points one after the other, each first snapped to the strongest ridge within `snap` px.
+// The cheapest way through the points one after the other, each first snapped to the strongest ridge within `snap` px;
+// points that lie on `fixed` pixels (earlier strokes) stay where they are. `fixed` may be empty.
 std::vector<Pixel> live_wire(const RidgeEvidence& evidence, const LatticeCosts& costs, const std::vector<Vec2>& points,
-                             double snap, const Monitor& monitor = {});
+                             double snap, const Mask& fixed, const Monitor& monitor = {});
 
 // The lines with interruptions of up to gap radii bridged where the way across is cheap and goes straight on.
 Mask bridge_gaps(const RidgeEvidence& evidence, const LatticeCosts& costs, const Mask& lines, double gap,

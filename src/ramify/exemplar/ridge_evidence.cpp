@@ -151,7 +151,7 @@ RidgeEvidence gather_evidence(const ColorImage& photo, const Mask& excluded, con
   e.thick = options.mode == TraceMode::Ridge
                 ? Mask(photo.size())
                 : thick_branches(e.picture, e.bright,
-                                 options.mode == TraceMode::Mask ? options.min_radius : 0.8 * options.max_radius, excluded);
+                                 options.mode == TraceMode::Area ? options.min_radius : 0.8 * options.max_radius, excluded);
   monitor.check();
   e.radius = distance_inside(e.thick);
   for (std::size_t i = 0; i < e.radius.pixels().size(); ++i) {

@@ -19,6 +19,7 @@ namespace ramify {
 namespace {
 
 constexpr double kSnap = 8.0;       // px, how far a given point may be moved to the ridge (ALGORITHMS 3.1-4)
+constexpr double kAttach = 16.0;    // px, strokes starting or ending this near to another one join it
 constexpr double kStaircase = 2.0;  // px, smoothing that removes the pixel staircase (PICTURES 10)
 
 Mask excluded_pixels(const Photo& photo, const std::vector<Region>& regions) {
@@ -46,12 +47,31 @@ std::vector<Pixel> straight_path(const std::vector<Vec2>& points, Size size) {
   return path;
 }
 
+// The drawn pixel nearest to p within kAttach px, or p: strokes that start or end at another stroke join it.
+Vec2 attached(const Mask& drawn, const Vec2& p) {
+  Vec2 best = p;
+  double nearest = kAttach;
+  const int cx = static_cast<int>(std::lround(p.x())), cy = static_cast<int>(std::lround(p.y()));
+  for (int y = cy - static_cast<int>(kAttach); y <= cy + static_cast<int>(kAttach); ++y) {
+    for (int x = cx - static_cast<int>(kAttach); x <= cx + static_cast<int>(kAttach); ++x) {
+      const double away = std::hypot(x - p.x(), y - p.y());
+      if (!drawn.contains(x, y) || !drawn(x, y) || away >= nearest) continue;
+      nearest = away;
+      best = Vec2(x, y);
+    }
+  }
+  return best;
+}
+
 Mask strokes_as_lines(const RidgeEvidence& evidence, const LatticeCosts& costs, const TraceOptions& options,
                       const Monitor& monitor) {
   Mask drawn(evidence.picture.size());
-  for (const auto& stroke : parse_strokes("through", options.through)) {
+  for (std::vector<Vec2> stroke : parse_strokes("through", options.through)) {
+    const Vec2 first = attached(drawn, stroke.front()), last = attached(drawn, stroke.back());
+    if (first != stroke.front()) stroke.insert(stroke.begin(), first);
+    if (last != stroke.back()) stroke.push_back(last);
     draw_path(drawn, options.straight ? straight_path(stroke, drawn.size())
-                                      : live_wire(evidence, costs, stroke, kSnap, monitor));
+                                      : live_wire(evidence, costs, stroke, kSnap, drawn, monitor));
   }
   return drawn;
 }

@@ -13,7 +13,7 @@
 
 namespace ramify {
 
-enum class TraceMode { Auto, Ridge, Mask };
+enum class TraceMode { Auto, Ridge, Area };
 enum class TracePolarity { Auto, Dark, Bright, Glow };
 
 struct TraceOptions {
