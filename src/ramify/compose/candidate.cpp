@@ -2,26 +2,20 @@
 #include "ramify/compose/candidate.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "ramify/core/parallel.h"
 #include "ramify/geometry/registration.h"
 
 namespace ramify {
 namespace {
 
-constexpr std::size_t kShapeSurvivors = 160;  // go on to the dearer terms
+constexpr std::size_t kShapeSurvivors = 120;  // go on to the dearer terms
 constexpr std::size_t kKept = 24;
 constexpr std::size_t kEnough = 60;           // candidates of nearly the same width
-constexpr int kDiscGrid = 10;                 // disagreement is sampled on 21 x 21 points
+constexpr int kDiscGrid = 9;                  // disagreement is sampled on 19 x 19 points
 
 Vec2 mirrored(const Vec2& v, bool mirror) { return mirror ? Vec2(-v.x(), v.y()) : v; }
-
-struct Shape {
-  std::array<Vec2, 17> points;
-  std::array<double, 17> radii;
-  std::size_t count = 0;
-};
 
 Shape shape_of(const Fragment& f, bool mirror) {
   Shape shape;
@@ -53,6 +47,8 @@ Candidate compare_shapes(const Shape& source, const Shape& target, double scale,
     sum += omega * d * d;
   }
   candidate.angle = alignment.angle;
+  candidate.cosine = std::cos(alignment.angle);
+  candidate.sine = std::sin(alignment.angle);
   candidate.shape = sum / (static_cast<double>(source.count) * radius * radius);
   return candidate;
 }
@@ -75,37 +71,48 @@ bool same_kind(const Fragment& source, const Fragment& target, bool any_end) {
          source.shape.size() == target.shape.size();
 }
 
-std::vector<Candidate> match_shapes(const CandidateContext& context, const Fragment& target, bool any_end) {
-  const PlacementOptions& options = context.options;
+// Cost of a source apart from its shape: light that would fall from elsewhere, another scale of grain, faintness.
+double fitness_cost(const CandidateContext& context, const Candidate& c) {
   // A few hundred neighbouring discs correlate up to about 0.25 by chance alone.
   const double light = 2.0 * std::max(0.0, context.library.light_strength - 0.25);
+  const double faint = context.shapes[c.source].faintness, log_scale = c.scale == 1.0 ? 0.0 : std::log(c.scale);
+  return light * (1.0 - c.cosine) + 0.2 * log_scale * log_scale + context.options.contrast_weight * faint * faint;
+}
+
+// The sources of the target's kind and of nearly its width; the limits widen until there are enough.
+std::vector<int> comparable_sources(const CandidateContext& context, const Fragment& target, bool any_end) {
+  std::vector<std::pair<double, int>> all;
+  for (std::size_t j = 0; j < context.shapes.size(); ++j) {
+    const Fragment& source = context.library.fragments[j];
+    if (!same_kind(source, target, any_end) || is_banned(context, source, target)) continue;
+    all.emplace_back(std::abs(context.shapes[j].log_radius - std::log(target.branch_radius + 1.0)), static_cast<int>(j));
+  }
+  for (const double limit : {0.25, 0.5, 1.0, 3.0, 1e9}) {
+    std::vector<int> found;
+    for (const auto& [difference, source] : all) {
+      if (difference <= limit) found.push_back(source);
+    }
+    if (found.size() * 2 >= kEnough || found.size() == all.size()) return found;
+  }
+  return {};
+}
+
+std::vector<Candidate> match_shapes(const CandidateContext& context, const Fragment& target, bool any_end) {
+  const PlacementOptions& options = context.options;
   const bool may_mirror = options.mirror && context.library.light_strength < 0.35;
   const double omega = options.paper_greedy ? 2.0 : 1.0;
   const Shape wanted = shape_of(target, false);
   std::vector<Candidate> found;
-  for (const double limit : {0.25, 0.5, 1.0, 3.0, 1e9}) {
-    found.clear();
-    for (std::size_t j = 0; j < context.library.fragments.size(); ++j) {
-      const Fragment& source = context.library.fragments[j];
-      if (!same_kind(source, target, any_end)) continue;
-      if (std::abs(std::log((source.branch_radius + 1.0) / (target.branch_radius + 1.0))) > limit) continue;
-      if (is_banned(context, source, target)) continue;
-      for (int mirror = 0; mirror <= (may_mirror ? 1 : 0); ++mirror) {
-        Candidate c = compare_shapes(shape_of(source, mirror), wanted, scale_for(source, target), target.radius, omega);
-        c.source = static_cast<int>(j);
-        c.mirrored = mirror;
-        c.cost = c.shape;
-        if (!options.paper_greedy) {
-          c.cost += light * (1.0 - std::cos(c.angle));
-          if (c.scale != 1.0) c.cost += 0.2 * std::log(c.scale) * std::log(c.scale);
-          const double usual = context.usual_contrast[j];
-          const double faint = usual > 0.0 ? std::max(0.0, 0.9 - source.contrast / usual) : 0.0;
-          c.cost += options.contrast_weight * faint * faint;
-        }
-        found.push_back(c);
-      }
+  for (const int j : comparable_sources(context, target, any_end)) {
+    const double scale = scale_for(context.library.fragments[j], target);
+    for (int mirror = 0; mirror <= (may_mirror ? 1 : 0); ++mirror) {
+      const Shape& shape = mirror ? context.shapes[j].mirrored : context.shapes[j].straight;
+      Candidate c = compare_shapes(shape, wanted, scale, target.radius, omega);
+      c.source = j;
+      c.mirrored = mirror;
+      c.cost = c.shape + (options.paper_greedy ? 0.0 : fitness_cost(context, c));
+      found.push_back(c);
     }
-    if (found.size() >= kEnough) break;
   }
   return found;
 }
@@ -158,7 +165,20 @@ double tone_difference(const CandidateContext& context, const Fragment& target, 
 }  // namespace
 
 Vec2 photo_offset(const Candidate& candidate, const Vec2& canvas_offset) {
-  return mirrored(rotated(canvas_offset, -candidate.angle) / candidate.scale, candidate.mirrored);
+  const Vec2 turned(candidate.cosine * canvas_offset.x() + candidate.sine * canvas_offset.y(),
+                    candidate.cosine * canvas_offset.y() - candidate.sine * canvas_offset.x());
+  return mirrored(turned / candidate.scale, candidate.mirrored);
+}
+
+CandidateContext::CandidateContext(const FragmentLibrary& photo_library, const BranchField& canvas_field,
+                                   const PlacementOptions& choices)
+    : library(photo_library), field(canvas_field), options(choices), shapes(photo_library.fragments.size()) {
+  parallel_for(static_cast<int>(shapes.size()), [&](int j) {
+    const Fragment& f = library.fragments[j];
+    const double usual = usual_contrast(library, f.branch_radius);
+    shapes[j] = {shape_of(f, false), shape_of(f, true), std::log(f.branch_radius + 1.0),
+                 usual > 0.0 ? std::max(0.0, 0.9 - f.contrast / usual) : 0.0};
+  }, 64);
 }
 
 std::vector<Candidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index) {

@@ -2,6 +2,7 @@
 // How well a source disc would stand in for a target disc.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "ramify/compose/placement.h"
@@ -12,19 +13,36 @@ struct Candidate {
   int source = kNone;
   bool mirrored = false;
   double angle = 0.0;         // rad
+  double cosine = 1.0, sine = 0.0;  // of the angle
   double scale = 1.0;
   double shape = 0.0;         // squared px per sample, relative to the disc radius (paper 002, equation 1)
   double disagreement = 0.0;  // 0..1
   double cost = 0.0;          // all terms that do not depend on other choices
 };
 
+// A shape vector as plain numbers.
+struct Shape {
+  std::array<Vec2, 17> points;   // px from the centre
+  std::array<double, 17> radii;  // px
+  std::size_t count = 0;
+};
+
+// A source, ready to be compared.
+struct SourceShape {
+  Shape straight, mirrored;
+  double log_radius = 0.0;   // log(branch radius + 1)
+  double faintness = 0.0;    // 0.9 minus the share of the usual contrast, at least 0
+};
+
 // What all targets are compared with.
 struct CandidateContext {
+  CandidateContext(const FragmentLibrary& photo_library, const BranchField& canvas_field, const PlacementOptions& choices);
+
   const FragmentLibrary& library;
-  const BranchField& field;            // of the canvas
+  const BranchField& field;          // of the canvas
   const PlacementOptions& options;
-  std::vector<double> usual_contrast;  // of the sources' radius class, by fragment
-  ColorImage photo_low, canvas_low;    // low-pass Lab; canvas_low may be empty
+  std::vector<SourceShape> shapes;   // beside library.fragments
+  ColorImage photo_low, canvas_low;  // low-pass Lab; canvas_low may be empty
   std::uint64_t seed = 0;
 };
 

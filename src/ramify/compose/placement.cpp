@@ -195,8 +195,9 @@ PlacementPlan place_fragments(const FragmentLibrary& library, const Skeleton& sk
   plan.targets = cover_skeleton(plan.curves, cover);
   monitor.report(0.1);
 
-  CandidateContext context{library, plan.field, options, {}, surround_tone(library), {}, rng.child("candidates").next()};
-  for (const Fragment& f : library.fragments) context.usual_contrast.push_back(usual_contrast(library, f.branch_radius));
+  CandidateContext context(library, plan.field, options);
+  context.photo_low = surround_tone(library);
+  context.seed = rng.child("candidates").next();
   if (!background.empty()) context.canvas_low = gaussian_blur(lab_from_srgb(background), kLowPassSigma);
   const int count = static_cast<int>(plan.targets.fragments.size());
   std::vector<std::vector<Candidate>> candidates(static_cast<std::size_t>(count));

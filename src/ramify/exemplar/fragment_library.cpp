@@ -114,11 +114,13 @@ FragmentLibrary make_fragment_library(const Exemplar& exemplar, Mask shadow, Mas
 double usual_contrast(const FragmentLibrary& library, double branch_radius) {
   std::vector<double> values;
   for (const Fragment& f : library.fragments) {
-    if (std::abs(std::log((f.branch_radius + 1.0) / (branch_radius + 1.0))) < 0.3) values.push_back(f.contrast);
+    const double ratio = (f.branch_radius + 1.0) / (branch_radius + 1.0);
+    if (ratio > 0.74 && ratio < 1.35) values.push_back(f.contrast);
   }
   if (values.size() < 5) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() * 6 / 10];
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 6 / 10);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace ramify
