@@ -256,3 +256,36 @@ TEST_CASE("placements are maps any layer can be read through") {
     }
   }
 }
+
+TEST_CASE("branches too wide for one disc are dressed bank by bank") {
+  // A river of 90 px that widens and bends; sources near their own place are banned, so nothing is copied in place.
+  Skeleton river(Size{700, 420});
+  int parent = kNone;
+  for (int x = 0; x < 700; x += 6) {
+    parent = river.append({Vec3(x, 200 + 50 * std::sin(x / 90.0), 0), 45 + 6 * std::sin(x / 50.0), parent});
+  }
+  PlacementOptions options;
+  options.leave_out = 2.0;
+  const Dressed d = dress(drawn_exemplar(river, 11), river, options);
+  int banks = 0, interior = 0, along = 0;
+  for (const Fragment& f : d.plan.targets.fragments) {
+    banks += f.kind == FragmentKind::Bank;
+    interior += f.kind == FragmentKind::Interior;
+    along += f.kind == FragmentKind::Along;
+  }
+  CHECK(banks > 20);
+  CHECK(interior > 10);
+  CHECK(along == 0);
+  int inside = 0, dark_inside = 0, dark_outside = 0;
+  for (int y = 0; y < 420; ++y) {
+    for (int x = 0; x < 700; ++x) {
+      const float distance = d.plan.field.signed_distance(x, y);
+      const bool dark = d.result.color(x, y).g < 0.33f;
+      inside += distance < -2.0f;
+      dark_inside += distance < -2.0f && dark;
+      dark_outside += distance > 2.0f && dark;
+    }
+  }
+  CHECK(dark_inside > 0.97 * inside);
+  CHECK(dark_outside < 0.005 * inside);
+}

@@ -31,7 +31,7 @@ struct Rows {
 Rows constraint_rows(const Fragment& source, const Fragment& target, const Candidate& candidate) {
   Rows rows;
   for (std::size_t l = 0; l < target.shape.size(); ++l) {
-    const ShapeSample &s = source.shape[l], &t = target.shape[l];
+    const ShapeSample &s = source.shape[paired_sample(source, candidate.mirrored, l)], &t = target.shape[l];
     rows.add(candidate, target.radius, t.offset, s.offset);
     if (t.radius <= 0.8) continue;
     // The source's normal may point to the other bank, above all when it is mirrored.

@@ -21,8 +21,9 @@ Shape shape_of(const Fragment& f, bool mirror) {
   Shape shape;
   shape.count = f.shape.size();
   for (std::size_t l = 0; l < shape.count; ++l) {
-    shape.points[l] = mirrored(f.shape[l].offset, mirror);
-    shape.radii[l] = f.shape[l].radius;
+    const ShapeSample& sample = f.shape[paired_sample(f, mirror, l)];
+    shape.points[l] = mirrored(sample.offset, mirror);
+    shape.radii[l] = sample.radius;
   }
   return shape;
 }
@@ -154,7 +155,7 @@ double mask_disagreement(const CandidateContext& context, const Fragment& target
 }
 
 double tone_difference(const CandidateContext& context, const Fragment& target, const Fragment& source) {
-  if (context.canvas_low.empty()) return 0.0;
+  if (context.canvas_low.empty() || target.kind == FragmentKind::Interior) return 0.0;
   auto at = [](const ColorImage& image, const Vec2& p) {
     return image.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
   };
@@ -163,6 +164,10 @@ double tone_difference(const CandidateContext& context, const Fragment& target, 
 }
 
 }  // namespace
+
+std::size_t paired_sample(const Fragment& source, bool mirror, std::size_t sample) {
+  return mirror && source.kind == FragmentKind::Bank ? source.shape.size() - 1 - sample : sample;
+}
 
 Vec2 photo_offset(const Candidate& candidate, const Vec2& canvas_offset) {
   const Vec2 turned(candidate.cosine * canvas_offset.x() + candidate.sine * canvas_offset.y(),
@@ -177,7 +182,7 @@ CandidateContext::CandidateContext(const FragmentLibrary& photo_library, const B
     const Fragment& f = library.fragments[j];
     const double usual = usual_contrast(library, f.branch_radius);
     shapes[j] = {shape_of(f, false), shape_of(f, true), std::log(f.branch_radius + 1.0),
-                 usual > 0.0 ? std::max(0.0, 0.9 - f.contrast / usual) : 0.0};
+                 usual > 0.0 && f.kind < FragmentKind::Bank ? std::max(0.0, 0.9 - f.contrast / usual) : 0.0};
   }, 64);
 }
 

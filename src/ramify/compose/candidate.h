@@ -49,6 +49,9 @@ struct CandidateContext {
 // The offset from the source's centre on the photo that an offset from the target's centre is taken from, unbent.
 Vec2 photo_offset(const Candidate& candidate, const Vec2& canvas_offset);
 
+// Which sample of the source lies on the target's. Mirrored banks run backwards, so that the branch stays on its side.
+std::size_t paired_sample(const Fragment& source, bool mirror, std::size_t sample);
+
 // The best candidates of a target, best first; empty when the photo has nothing of its kind.
 std::vector<Candidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index);
 

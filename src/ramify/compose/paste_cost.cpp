@@ -43,7 +43,14 @@ std::vector<SeamMove> PasteCost::moves() const {
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   auto rank = [&](int i) {
     const Fragment& f = plan_.targets.fragments[plan_.placements[i].target];
-    return f.kind == FragmentKind::Along ? (f.tip ? 1 : 0) : f.kind == FragmentKind::Junction ? 2 : 3;
+    switch (f.kind) {
+      case FragmentKind::Interior: return 0;
+      case FragmentKind::Bank: return 1;
+      case FragmentKind::Along: return f.tip ? 3 : 2;
+      case FragmentKind::Junction: return 4;
+      case FragmentKind::Side: return 5;
+    }
+    return 0;
   };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
   std::vector<SeamMove> moves;

@@ -140,10 +140,14 @@ class Selection {
 // A photo without side (junction) sources covers such furcations as junctions (sides); without both, by chains alone.
 FragmentOptions available_kinds(const FragmentLibrary& library, FragmentOptions options) {
   bool junction = false, side = false;
+  int banks = 0;
   for (const Fragment& f : library.fragments) {
     junction = junction || f.kind == FragmentKind::Junction;
     side = side || f.kind == FragmentKind::Side;
+    banks += f.kind == FragmentKind::Bank;
   }
+  constexpr int kFewBanks = 20;  // discs; less would be repeated all along a bank
+  if (banks < kFewBanks) options.wide_radius = 0.0;
   if (!side) options.side_ratio = 0.0;
   if (!junction && side) options.side_ratio = 1e9;
   return options;
@@ -192,7 +196,7 @@ PlacementPlan place_fragments(const FragmentLibrary& library, const Skeleton& sk
   plan.field = measure_branch_field(plan.curves, plan.skeleton.size);
   TargetOptions cover = target_options;
   cover.fragment = available_kinds(library, cover.fragment);
-  plan.targets = cover_skeleton(plan.curves, cover);
+  plan.targets = cover_skeleton(plan.curves, plan.field, cover);
   monitor.report(0.1);
 
   CandidateContext context(library, plan.field, options);

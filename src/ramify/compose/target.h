@@ -18,9 +18,11 @@ struct TargetOptions {
 struct TargetSet {
   std::vector<Fragment> fragments;
   // Of each curve: its discs from base to tip, the furcation it starts with and those it passes included.
+  // After them: the discs of each bank of wide branches, and those between the banks.
   std::vector<std::vector<int>> chains;
 };
 
-TargetSet cover_skeleton(const std::vector<BranchCurve>& curves, const TargetOptions& options);
+// `field` belongs to the curves. Branches of at least fragment.wide_radius are covered bank by bank.
+TargetSet cover_skeleton(const std::vector<BranchCurve>& curves, const BranchField& field, const TargetOptions& options);
 
 }  // namespace ramify

@@ -114,7 +114,8 @@ std::optional<Fragment> furcation_fragment(const std::vector<BranchCurve>& curve
   f.child = index;
   f.vertex = child.parent_vertex;
   const double parent_radius = parent.radii[f.vertex], child_radius = radius_outside(child, parent_radius);
-  if (child_radius < options.side_ratio * std::max(0.5, parent_radius) && parent_radius > 5.0) {
+  const bool wide_parent = options.wide_radius > 0.0 && parent_radius >= options.wide_radius;
+  if ((child_radius < options.side_ratio * std::max(0.5, parent_radius) && parent_radius > 5.0) || wide_parent) {
     return side_fragment(parent, child, f, child_radius);
   }
   f.kind = FragmentKind::Junction;

@@ -16,7 +16,9 @@ namespace ramify {
 enum class FragmentKind {
   Along,     // a stretch of one branch
   Junction,  // a furcation whose child has at least side_ratio of the parent's width
-  Side       // a thinner child leaving its parent's bank
+  Side,      // a thinner child leaving its parent's bank
+  Bank,      // one bank of a branch too wide for a disc that holds both (shore.h)
+  Interior   // between the banks of such a branch
 };
 
 struct ShapeSample {
@@ -45,6 +47,8 @@ struct FragmentOptions {
   double side_ratio = 0.4;     // child / parent radius below which a furcation is a Side fragment; 0 = never
   double source_spacing = 0.25;  // of the disc radius
   bool paper_spacing = false;  // sources lambda-spaced only (0.75 of the summed radii), discs clamp(3 r, 8, 0.2 side)
+  double wide_radius = 28.0;   // px; wider branches are dressed bank by bank; 0 = never
+  double bank_disc = 40.0;     // px, disc radius on banks and between them
   double canvas_side = 0.0;    // px, for paper_spacing; 0 = no upper bound
 };
 
@@ -60,7 +64,7 @@ std::optional<Fragment> furcation_fragment(const std::vector<BranchCurve>& curve
 
 // Everything a photo offers.
 struct FragmentLibrary {
-  std::vector<BranchCurve> curves;
+  std::vector<BranchCurve> curves, shores;
   BranchField field;
   std::vector<Fragment> fragments;
   ColorImage lab;           // the photo in CIE Lab

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "ramify/core/error.h"
-#include "ramify/exemplar/fragment.h"
+#include "ramify/exemplar/shore.h"
 #include "ramify/image/color.h"
 #include "ramify/image/filter.h"
 
@@ -75,6 +75,25 @@ double measure_light(const FragmentLibrary& library) {
   return std::sqrt(std::clamp((a * cd + b * sd) / dd, 0.0, 1.0));
 }
 
+// Banks of branches down to half the width that needs them (their discs then hold the other bank as well, and compete
+// only where the target does too), and places well inside.
+void add_wide_sources(FragmentLibrary& library, const FragmentOptions& options) {
+  if (options.wide_radius <= 0.0 || options.paper_spacing) return;
+  library.shores = wide_shores(library.field, 0.5 * options.wide_radius);
+  const int step = std::max(2, static_cast<int>(options.source_spacing * options.bank_disc));
+  for (int s = 0; s < static_cast<int>(library.shores.size()); ++s) {
+    for (int v = 0; v < library.shores[s].count(); v += step) {
+      library.fragments.push_back(bank_fragment(library.shores, s, v, options.bank_disc));
+    }
+  }
+  for (int y = 0; y < library.lab.height(); y += step) {
+    for (int x = 0; x < library.lab.width(); x += step) {
+      if (library.field.signed_distance(x, y) > -0.6 * options.bank_disc) continue;
+      library.fragments.push_back(interior_fragment(library.curves, library.field, Vec2(x, y), options.bank_disc));
+    }
+  }
+}
+
 void measure_radii(FragmentLibrary& library) {
   std::vector<double> radii;
   for (const BranchCurve& curve : library.curves) radii.insert(radii.end(), curve.radii.begin(), curve.radii.end());
@@ -105,7 +124,10 @@ FragmentLibrary make_fragment_library(const Exemplar& exemplar, Mask shadow, Mas
     throw InputError(exemplar.photo.name, "the annotation has no branch longer than a point, so there is nothing to cut; "
                                           "annotate at least one branch");
   }
-  for (Fragment& f : library.fragments) f.contrast = measure_contrast(library, f);
+  for (Fragment& f : library.fragments) {
+    if (f.kind < FragmentKind::Bank) f.contrast = measure_contrast(library, f);
+  }
+  add_wide_sources(library, options);
   measure_radii(library);
   library.light_strength = measure_light(library);
   return library;
@@ -114,6 +136,7 @@ FragmentLibrary make_fragment_library(const Exemplar& exemplar, Mask shadow, Mas
 double usual_contrast(const FragmentLibrary& library, double branch_radius) {
   std::vector<double> values;
   for (const Fragment& f : library.fragments) {
+    if (f.kind >= FragmentKind::Bank) continue;
     const double ratio = (f.branch_radius + 1.0) / (branch_radius + 1.0);
     if (ratio > 0.74 && ratio < 1.35) values.push_back(f.contrast);
   }

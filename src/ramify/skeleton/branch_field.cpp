@@ -14,8 +14,9 @@ constexpr double kBand = 4.0;  // px beyond the edge that is measured exactly
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
 // Signed distance by stamping discs; infinity beyond the band.
-ScalarImage stamp_discs(const std::vector<BranchCurve>& curves, Size size) {
-  ScalarImage distance(size, kFar);
+void stamp_discs(const std::vector<BranchCurve>& curves, BranchField& field) {
+  ScalarImage& distance = field.signed_distance;
+  const Size size = distance.size();
   for (const BranchCurve& curve : curves) {
     int next = 0;
     for (int i = 0; i < curve.count(); ++i) {
@@ -30,12 +31,13 @@ ScalarImage stamp_discs(const std::vector<BranchCurve>& curves, Size size) {
       for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
           const double d = std::hypot(x - p.x(), y - p.y()) - r;
-          if (d <= kBand && d < distance(x, y)) distance(x, y) = static_cast<float>(d);
+          if (d > kBand || d >= distance(x, y)) continue;
+          distance(x, y) = static_cast<float>(d);
+          field.surface_radius(x, y) = static_cast<float>(r);
         }
       }
     }
   }
-  return distance;
 }
 
 // The nearest curve vertex of every pixel, by two sweeps that pass candidates on to the neighbours (Danielsson 1980).
@@ -92,8 +94,9 @@ class NearestVertex {
 }  // namespace
 
 BranchField measure_branch_field(const std::vector<BranchCurve>& curves, Size size) {
-  BranchField field{stamp_discs(curves, size), ScalarImage(size, kFar), ScalarImage(size, 0.0f), LabelImage(size, kNone),
-                    LabelImage(size, kNone)};
+  BranchField field{ScalarImage(size, kFar), ScalarImage(size, 0.0f), ScalarImage(size, kFar),
+                    ScalarImage(size, 0.0f), LabelImage(size, kNone), LabelImage(size, kNone)};
+  stamp_discs(curves, field);
   Mask inside(size);
   for (std::size_t i = 0; i < inside.pixels().size(); ++i) {
     inside.pixels()[i] = field.signed_distance.pixels()[i] <= 0.5f ? 255 : 0;

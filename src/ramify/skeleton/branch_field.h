@@ -11,6 +11,7 @@ namespace ramify {
 
 struct BranchField {
   ScalarImage signed_distance;  // px to the edge of the branches, negative inside; infinity when there is no branch
+  ScalarImage surface_radius;   // px, of the branch whose edge is nearest; 0 beyond 4 px from every edge
   ScalarImage centre_distance;  // px to the nearest centre line
   ScalarImage radius;           // px, of the branch at that point of the centre line; 0 when there is none
   LabelImage curve;             // index of that curve; kNone when there is none
