@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/exemplar/plate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ramify/exemplar/branch_zone.h"
+#include "ramify/image/color.h"
+#include "ramify/image/completion.h"
+#include "ramify/image/filter.h"
+
+namespace ramify {
+namespace {
+
+Mask add(Mask a, const Mask& b) {
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) a.pixels()[i] |= b.pixels()[i];
+  return a;
+}
+
+Mask without(Mask a, const Mask& b) {
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    if (b.pixels()[i]) a.pixels()[i] = 0;
+  }
+  return a;
+}
+
+Mask within(Mask a, const Mask& b) {
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) a.pixels()[i] &= b.pixels()[i];
+  return a;
+}
+
+Mask mask_of(const Habitat& habitat, RegionRole role) {
+  Mask mask(habitat.role.size(), 0);
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    if (habitat.role.pixels()[i] == static_cast<std::uint8_t>(role)) mask.pixels()[i] = 255;
+  }
+  return mask;
+}
+
+ScalarImage weight_of(const Mask& mask, bool inside) {
+  ScalarImage weight(mask.size());
+  for (std::size_t i = 0; i < weight.pixels().size(); ++i) {
+    weight.pixels()[i] = (mask.pixels()[i] != 0) == inside ? 1.0f : 0.0f;
+  }
+  return weight;
+}
+
+double quantile(std::vector<float> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// How a photo differs from the ground around its branches, and how far the difference reaches.
+struct Reach {
+  ScalarImage beside;      // px from the annotated branches
+  ScalarImage apart;       // Lab difference to the ground around, in the branches' own direction
+  double margin = 3.0;     // px beyond the annotated edge at which the median difference has died away
+  double telling = 1e9;    // Lab; a difference this large beside a branch belongs to the branch
+};
+
+Reach measure_reach(const Exemplar& exemplar, const Habitat& habitat) {
+  constexpr float kFar = 24.0f;  // px
+  const ColorImage lab = lab_from_srgb(exemplar.photo.color);
+  Reach reach;
+  reach.beside = distance_to(branch_zone(exemplar.skeleton, lab.size(), [](double r) { return r; }));
+  const Mask banned = add(habitat.outside, habitat.outliers);
+  ScalarImage ground(lab.size());
+  for (std::size_t i = 0; i < ground.pixels().size(); ++i) {
+    ground.pixels()[i] = reach.beside.pixels()[i] > kFar && !banned.pixels()[i] ? 1.0f : 0.0f;
+  }
+  const ColorImage around = masked_blur(lab, ground, 20.0);
+  // Branches differ from the ground in one direction of colour; what differs in another is not theirs (an optic disc).
+  Rgb direction{};
+  for (std::size_t i = 0; i < ground.pixels().size(); ++i) {
+    if (reach.beside.pixels()[i] == 0.0f && !banned.pixels()[i]) direction = direction + (lab.pixels()[i] - around.pixels()[i]);
+  }
+  const float length = std::sqrt(direction.r * direction.r + direction.g * direction.g + direction.b * direction.b);
+  if (length > 0.0f) direction = (1.0f / length) * direction;
+  reach.apart = ScalarImage(lab.size());
+  std::vector<std::vector<float>> at(static_cast<std::size_t>(kFar) + 1);
+  std::vector<float> elsewhere;
+  for (std::size_t i = 0; i < ground.pixels().size(); ++i) {
+    const Rgb d = lab.pixels()[i] - around.pixels()[i];
+    const float along = d.r * direction.r + d.g * direction.g + d.b * direction.b;
+    reach.apart.pixels()[i] = along;
+    if (banned.pixels()[i]) continue;
+    if (reach.beside.pixels()[i] <= kFar) at[static_cast<std::size_t>(reach.beside.pixels()[i] + 0.5f)].push_back(std::abs(along));
+    else if (i % 3 == 0) elsewhere.push_back(std::abs(along));
+  }
+  const double contrast = quantile(at[0], 0.5), rest = quantile(elsewhere, 0.5);
+  constexpr int kMost = 14;
+  const double visible = std::max(1.0, 0.03 * (contrast - rest));  // Lab; a soft shadow beside a root is seen at this
+  while (reach.margin < kMost && quantile(at[static_cast<std::size_t>(reach.margin)], 0.5) > rest + visible) {
+    reach.margin += 1.0;
+  }
+  reach.telling = std::max(0.5 * contrast, quantile(elsewhere, 0.98));
+  return reach;
+}
+
+// What touches the hole and differs from the ground as a branch does: banks and knots that the annotation was too narrow
+// for. They would stay behind as crumbs.
+Mask with_crumbs(Mask hole, const Reach& reach) {
+  constexpr float kNear = 16.0f;  // px
+  Mask different = hole;
+  for (std::size_t i = 0; i < hole.pixels().size(); ++i) {
+    if (reach.beside.pixels()[i] < kNear && reach.apart.pixels()[i] > reach.telling) different.pixels()[i] = 255;
+  }
+  int count = 0;
+  const LabelImage part = label_components(different, true, count);
+  std::vector<std::uint8_t> touches(static_cast<std::size_t>(count), 0);
+  for (std::size_t i = 0; i < hole.pixels().size(); ++i) {
+    if (hole.pixels()[i]) touches[static_cast<std::size_t>(part.pixels()[i])] = 1;
+  }
+  Mask crumbs(hole.size(), 0);
+  for (std::size_t i = 0; i < hole.pixels().size(); ++i) {
+    if (!hole.pixels()[i] && part.pixels()[i] != kNone && touches[static_cast<std::size_t>(part.pixels()[i])]) crumbs.pixels()[i] = 255;
+  }
+  return add(std::move(hole), dilate(crumbs, 2.5));
+}
+
+// What is lifted out of the photo: branches, and the lines nobody annotated unless they are the ground's texture. What
+// lies outside the habitat stays as it is.
+Mask branch_holes(const Exemplar& exemplar, const Habitat& habitat, double factor, double margin, double shadow_margin) {
+  Mask hole = branch_zone(exemplar.skeleton, exemplar.photo.color.size(), [&](double r) { return factor * r + margin; });
+  if (!habitat.shadow_is_texture) hole = add(std::move(hole), dilate(habitat.shadow, shadow_margin));
+  return without(std::move(hole), habitat.outside);
+}
+
+Mask never_copied(const Habitat& habitat) {
+  return add(habitat.outside, habitat.outliers);
+}
+
+Plate thin_plate(const Exemplar& exemplar, const Habitat& habitat, Rng rng, const Monitor& monitor) {
+  Plate plate;
+  const Reach reach = measure_reach(exemplar, habitat);
+  plate.hole = without(with_crumbs(branch_holes(exemplar, habitat, 1.15, reach.margin, 2.0), reach), habitat.outside);
+  float widest = 0.0f;
+  const ScalarImage depth = distance_to(invert(plate.hole));
+  for (const float d : depth.pixels()) widest = std::max(widest, std::isfinite(d) ? d : 0.0f);
+  CompletionOptions options;
+  options.tone_reach = 25.0;
+  options.quilt.nearby = std::max(0.12 * std::max(plate.hole.width(), plate.hole.height()), 4.0 * widest);
+  const Mask landmark = mask_of(habitat, RegionRole::Landmark);
+  Completion filled = complete(exemplar.photo.color, without(plate.hole, landmark), add(never_copied(habitat), plate.hole), options,
+                               rng.child("ground"), monitor.stage("ground", 0.0, 0.8));
+  const Mask in_landmark = within(plate.hole, landmark);
+  if (mean_of(in_landmark) > 0.0) {
+    // A landmark is made of itself.
+    options.quilt.nearby = 0.0;
+    const Completion inner = complete(filled.color, in_landmark, add(invert(landmark), plate.hole), options,
+                                      rng.child("landmark"), monitor.stage("landmark", 0.8, 1.0));
+    filled.color = inner.color;
+    for (std::size_t i = 0; i < landmark.pixels().size(); ++i) {
+      if (in_landmark.pixels()[i]) filled.source.pixels()[i] = inner.source.pixels()[i];
+    }
+  }
+  plate.color = std::move(filled.color);
+  plate.source = std::move(filled.source);
+  return plate;
+}
+
+// The hole's own texture, from elsewhere: the photo minus its slow tones is completed; places of like brightness are
+// preferred, because grain follows brightness (one level for the whole picture is far too much in the dark, 12.3-3).
+Completion complete_grain(const ColorImage& grain, const ColorImage& slow, const Mask& hole, const Mask& forbidden, Rng rng,
+                          const Monitor& monitor) {
+  QuiltJob job;
+  job.source = grain;
+  job.forbidden = add(forbidden, hole);
+  job.canvas = grain;
+  job.hole = hole;
+  constexpr double kToneWeight = 40.0;  // a difference of 0.15 in brightness costs as much as an overlap that differs fully
+  const ScalarImage level = luma(slow);
+  job.guides.push_back({level, level, kToneWeight});
+  QuiltOptions options;
+  options.patch = 72;
+  options.tries = 200;
+  options.sweeps = 1;
+  const Quilt quilt = make_quilt(job, options, rng, monitor);
+  return {blend_quilt(job, quilt, {}, 25.0, false, monitor), quilt_sources(quilt)};
+}
+
+// Two nested holes. In the halo the slow tones come from around it, and the photo's own quick ones are put back, rising
+// from nothing beside the branch; in the thin hole the quick ones are copied from elsewhere.
+Plate halo_plate(const Exemplar& exemplar, const Habitat& habitat, Rng rng, const Monitor& monitor) {
+  const ColorImage& photo = exemplar.photo.color;
+  Plate plate;
+  plate.hole = branch_holes(exemplar, habitat, 1.5, 6.0, 6.0);
+  // A landmark's light (a cloud base) is its own; only the branch itself is taken out of it.
+  const Mask apart = add(habitat.outside, mask_of(habitat, RegionRole::Landmark));
+  const auto halo = [&](double most, double factor) {
+    const auto reach = [&](double r) { return std::min(most, 1.5 * r + 6.0 + factor * std::max(0.0, r - 2.5)); };
+    const Mask glow = without(branch_zone(exemplar.skeleton, photo.size(), reach), apart);
+    return without(add(glow, plate.hole), habitat.outside);
+  };
+  plate.halo = halo(80.0, 16.0);
+  monitor.report(0.1);
+  constexpr double kTone = 12.0;
+  ColorImage around = tone_through_hole(photo, add(plate.halo, habitat.outside), kTone, monitor.stage("tone", 0.1, 0.2));
+  // Before a dark sky the glow of a thick stroke is seen much farther.
+  const Mask wide = halo(150.0, 26.0);
+  constexpr float kDark = 0.3f;  // sRGB
+  for (std::size_t i = 0; i < wide.pixels().size(); ++i) {
+    if (wide.pixels()[i] && luma(around.pixels()[i]) < kDark) plate.halo.pixels()[i] = 255;
+  }
+  around = tone_through_hole(photo, add(plate.halo, habitat.outside), kTone, monitor.stage("tone", 0.2, 0.3));
+  constexpr double kSlow = 9.0;  // px; grain and small cloud shapes are quicker than this
+  const Mask covered = add(plate.hole, habitat.outside);
+  const ColorImage own_slow = masked_blur(photo, weight_of(covered, false), kSlow);
+  ColorImage quick(photo.size());
+  for (std::size_t i = 0; i < quick.pixels().size(); ++i) {
+    if (!covered.pixels()[i]) quick.pixels()[i] = photo.pixels()[i] - own_slow.pixels()[i];
+  }
+  const ScalarImage beside = distance_to(plate.hole);
+  Mask inner = plate.halo;  // where the photo's own quick tones are not to be trusted
+  constexpr float kRampFrom = 12.0f, kRampTo = 50.0f;
+  for (std::size_t i = 0; i < inner.pixels().size(); ++i) {
+    if (beside.pixels()[i] > kRampTo) inner.pixels()[i] = 0;
+  }
+  const Completion grain = complete_grain(quick, around, inner, add(never_copied(habitat), plate.halo), rng,
+                                          monitor.stage("grain", 0.3, 0.9));
+  plate.color = photo;
+  plate.source = grain.source;
+  const ScalarImage depth = distance_to(invert(plate.halo));
+  for (std::size_t i = 0; i < inner.pixels().size(); ++i) {
+    if (!plate.halo.pixels()[i]) continue;
+    const float own = std::clamp((beside.pixels()[i] - kRampFrom) / (kRampTo - kRampFrom), 0.0f, 1.0f);
+    const float foreign = std::sqrt(1.0f - own * own);  // independent grains add by their squares
+    const Rgb dark = around.pixels()[i] + own * quick.pixels()[i] + foreign * grain.color.pixels()[i];
+    // The two tones meet over the halo's outer pixels, but never inside the thin hole.
+    const float share = plate.hole.pixels()[i] ? 1.0f : std::min(1.0f, depth.pixels()[i] / std::min(40.0f, 40.0f * own + 1.0f));
+    plate.color.pixels()[i] = share * dark + (1.0f - share) * photo.pixels()[i];
+    if (own > 0.5f) plate.source.pixels()[i] = {static_cast<float>(i % photo.width()), static_cast<float>(i / photo.width())};
+  }
+  return plate;
+}
+
+}  // namespace
+
+Plate make_plate(const Exemplar& exemplar, const Habitat& habitat, PlateKind kind, Rng rng, const Monitor& monitor) {
+  return kind == PlateKind::Thin ? thin_plate(exemplar, habitat, rng, monitor) : halo_plate(exemplar, habitat, rng, monitor);
+}
+
+}  // namespace ramify
