@@ -28,7 +28,16 @@ target_include_directories(deps_svm SYSTEM INTERFACE ${SVM_INCLUDE_DIR})
 target_link_libraries(deps_svm INTERFACE ${SVM_LIBRARY})
 add_library(deps::svm ALIAS deps_svm)
 
-add_library(deps::vips ALIAS PkgConfig::VIPS)
+# libvips is loaded with the first picture (docs/decisions/0004): only its headers and the name of the library are needed.
+find_library(VIPS_LIBRARY vips REQUIRED)
+file(REAL_PATH ${VIPS_LIBRARY} VIPS_FILE)
+string(REGEX MATCH "libvips\\.so\\.[0-9]+" VIPS_SONAME ${VIPS_FILE})
+add_library(deps_vips INTERFACE)
+target_include_directories(deps_vips SYSTEM INTERFACE ${VIPS_INCLUDE_DIRS})
+target_compile_definitions(deps_vips INTERFACE RAMIFY_VIPS_SONAME="${VIPS_SONAME}")
+target_link_libraries(deps_vips INTERFACE ${CMAKE_DL_LIBS})
+add_library(deps::vips ALIAS deps_vips)
+
 add_library(deps::lcms ALIAS PkgConfig::LCMS)
 add_library(deps::openexr ALIAS PkgConfig::OPENEXR)
 add_library(deps::fftw ALIAS PkgConfig::FFTW)

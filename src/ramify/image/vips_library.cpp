@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/image/vips_library.h"
+
+#include <dlfcn.h>
+
+#include "ramify/core/error.h"
+
+namespace ramify {
+namespace {
+
+void keep_silent(const char*, GLogLevelFlags, const char*, void*) {}
+
+// The handle stays open until the program ends; glib's own functions are found through libvips' dependencies.
+VipsLibrary load() {
+  void* handle = dlopen(RAMIFY_VIPS_SONAME, RTLD_NOW | RTLD_LOCAL);
+  const auto fail = [] { throw Error(ExitCode::Bug, "libvips cannot be loaded: " + std::string(dlerror()) + "; install it"); };
+  if (!handle) fail();
+  VipsLibrary library;
+#define RAMIFY_VIPS_FIND(name)                                            \
+  library.name = reinterpret_cast<decltype(&::name)>(dlsym(handle, #name)); \
+  if (!library.name) fail();
+  RAMIFY_VIPS_FUNCTIONS(RAMIFY_VIPS_FIND)
+#undef RAMIFY_VIPS_FIND
+  return library;
+}
+
+VipsLibrary start() {
+  const VipsLibrary library = load();
+  library.g_log_set_handler("VIPS", static_cast<GLogLevelFlags>(G_LOG_LEVEL_MASK | G_LOG_FLAG_FATAL | G_LOG_FLAG_RECURSION),
+                            keep_silent, nullptr);
+  if (library.vips_init("ramify") != 0) {
+    throw Error(ExitCode::Bug, "libvips cannot be started: " + printable(library.vips_error_buffer()));
+  }
+  library.vips_block_untrusted_set(TRUE);
+  library.vips_concurrency_set(1);
+  library.vips_cache_set_max(0);
+  return library;
+}
+
+}  // namespace
+
+const VipsLibrary& vips_library() {
+  static const VipsLibrary library = start();
+  return library;
+}
+
+std::string take_vips_error() {
+  std::string text = vips_library().vips_error_buffer();
+  vips_library().vips_error_clear();
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text) c = c == '\n' ? ';' : c;
+  return printable(text);
+}
+
+}  // namespace ramify
