@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How one exemplar's branches bend, taper and fork, learnt from its skeleton alone (paper 002, section 4). A style never
-// sees a pixel. It is scale-free (lengths in units of the exemplar's step h, which is kept) and saves as JSON.
+// sees a pixel. Its lengths are px of the exemplar; it saves as JSON.
 #pragma once
 
 #include <string>
@@ -15,9 +15,12 @@
 namespace ramify {
 
 struct LearnStyleOptions {
-  double feature_size = 0.0;  // px, size of a typical bend; 0 = measured (PICTURES 12.2-1)
-  bool mirror = true;         // learn every bend also mirrored
-  bool paper_exact = false;   // ALGORITHMS 17
+  double feature_size = 0.0;       // px, size of a typical bend; 0 = measured (PICTURES 12.2-1)
+  int extension = 8;               // m, vertices per extension; the step is feature_size / m
+  bool mirror = true;              // learn every bend also mirrored
+  bool signed_angles = false;      // furcations learn signed turning angles, as the paper
+  bool platt_probabilities = false;  // furcation probabilities from five random folds, as the paper's libsvm
+  bool paper_exact = false;        // both of these (ALGORITHMS 17)
 };
 std::vector<OptionField> describe(LearnStyleOptions& options);
 
@@ -25,6 +28,7 @@ struct Style {
   double step = 1.0;          // h, px of the exemplar
   double feature_size = 8.0;  // s, px
   double unit_radius = 1.0;   // px, mean radius of the exemplar
+  bool mirror = true;         // bends may be used mirrored
   Size exemplar_size;         // px
   BendingModel bending;
   FurcationModel furcation;
@@ -34,7 +38,8 @@ struct Style {
 // Throws InputError when the skeleton is too small to learn from (it says how much is needed).
 Style learn_style(const Skeleton& exemplar, const LearnStyleOptions& options, const Monitor& monitor);
 
-std::string style_text(const Style& style);  // JSON
+// JSON. parse_style(style_text(s), name) equals s exactly, and throws InputError naming the path of what is wrong.
+std::string style_text(const Style& style);
 Style parse_style(const std::string& json, const std::string& name);
 
 }  // namespace ramify
