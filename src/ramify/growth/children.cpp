@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/growth/children.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ramify/growth/candidates.h"
+#include "ramify/growth/extension.h"
+#include "ramify/growth/headings.h"
+
+namespace ramify {
+namespace {
+
+
+constexpr double kMostWidening = 1.5;    // of its radius at the start
+constexpr double kDenseStart = 0.6;      // D beyond which a child's first stretch stands in others' way
+constexpr double kTooShort = 0.35;       // of the intended length: taken back, tried elsewhere
+constexpr double kPlaceSpread = 0.18;    // of the parent's length, around the place in the template
+constexpr double kSwapped = 0.6;         // children swapped for a similar one
+constexpr int kSimilar = 5;
+constexpr double kAlike = 0.5;           // squared log ratios: nothing less alike is swapped in
+constexpr int kTries = 8;
+
+// Median radius of a template's first 2 m vertices: beyond its parent's influence.
+double template_start(const GrowthState& state, int source) {
+  const BendingModel& bending = state.style.bending;
+  const auto first = bending.radius.begin() + bending.first[source];
+  std::vector<double> radii(first, first + std::min(bending.length_of(source), 2 * bending.extension));
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
+}
+
+// The child's first m vertices are its template's own (the paper's non-causal start).
+Extension first_stretch(const GrowthState& state, const GrowingBranch& child) {
+  const BendingModel& bending = state.style.bending;
+  const int first = bending.first[child.source];
+  const int count = std::min({bending.extension, bending.length_of(child.source) - 1,
+                              std::max(1, static_cast<int>(std::lround(child.length / state.style.step)))});
+  Extension out;
+  double direction = child.start_direction;
+  Vec2 point = child.points.front();
+  for (int j = 0; j < count; ++j) {
+    const double turn = j == 0 ? 0.0 : child.mirrored ? -bending.alpha[first + j] : bending.alpha[first + j];
+    direction += turn;
+    point += direction_of(direction) * state.style.step;
+    out.points.push_back(point);
+    const double most = std::max(0.5, std::min(child.most_radius, 1.15 * child.radii.front()));
+    out.radii.push_back(std::clamp(bending.radius[first + j + 1] * child.radius_scale, 0.5, most));
+    out.turns.push_back(turn);
+    out.copied.push_back(child.mirrored ? -(first + j + 2) : first + j + 2);
+    if (!state.ground.inside(point)) {
+      leave_frame(state.ground, direction, state.style.step, out);
+      break;
+    }
+  }
+  return out;
+}
+
+GrowingBranch plan_branch(const GrowthState& state, const ChildPlan& plan, Rng& rng) {
+  const GrowingBranch& parent = state.branches[plan.parent];
+  const SourceBranch& source = state.style.hierarchy.branches[plan.source];
+  const BendingModel& bending = state.style.bending;
+  const double sign = plan.mirrored ? -1.0 : 1.0, rim = parent.radii[plan.node];
+  const double along = tangent_at(parent, plan.node);
+  GrowingBranch child;
+  child.source = plan.source;
+  child.mirrored = plan.mirrored;
+  child.parent = plan.parent;
+  child.parent_node = plan.node;
+  child.order = parent.order + 1;
+  const double template_rim = bending.smooth_radius[bending.first[source.parent] + source.parent_vertex];
+  const double start = template_start(state, plan.source);
+  const double radius = std::max(0.5, std::min(start * std::clamp(rim / template_rim, 0.75, 1.3), state.style.hierarchy.most_ratio * rim));
+  child.radius_scale = radius / start;
+  child.most_radius = std::max(radius, std::min(state.style.hierarchy.most_ratio * rim, kMostWidening * radius));
+  child.points = {parent.points[plan.node] + direction_of(along + sign * source.rim_angle) * (rim + 0.5)};
+  child.radii = {radius};
+  child.turns = {0.0};
+  child.copied = {plan.mirrored ? -(bending.first[plan.source] + 1) : bending.first[plan.source] + 1};
+  child.start_direction = wrap_angle(along + sign * source.start_angle);
+  const double length = (bending.length_of(plan.source) - 1) * state.style.step * std::exp(0.2 * rng.normal());
+  child.length = std::max(2.0 * state.style.step, length * plan.length_factor);
+  if (plan.most_length > 0.0) child.length = std::min(child.length, plan.most_length);
+  child.course = rng.uniform(0.5, 1.0);
+  return child;
+}
+
+// The template's own turn from its first direction to its chord, signed as the child is.
+double template_turn(const GrowthState& state, const GrowingBranch& child) {
+  const BendingModel& bending = state.style.bending;
+  const int first = bending.first[child.source], last = bending.first[child.source + 1] - 1;
+  const Vec2 start = bending.point[std::min(last, first + 3)] - bending.point[first];
+  const Vec2 chord = bending.point[last] - bending.point[first];
+  const double turn = wrap_angle(angle_of(chord) - angle_of(start));
+  return child.mirrored ? -turn : turn;
+}
+
+double length_of_template(const GrowthState& state, int source) {
+  return (state.style.bending.length_of(source) - 1) * state.style.step;
+}
+
+double parent_radius_of(const GrowthState& state, int source) {
+  const SourceBranch& branch = state.style.hierarchy.branches[source];
+  return state.style.bending.smooth_radius[state.style.bending.first[branch.parent] + branch.parent_vertex];
+}
+
+// One of the nearest templates in log parent radius and log length, rarely used ones preferred.
+int similar_template(const GrowthState& state, int source, Rng& rng) {
+  std::vector<std::pair<double, int>> others;
+  for (int b = 0; b < static_cast<int>(state.style.hierarchy.branches.size()); ++b) {
+    if (state.style.hierarchy.branches[b].parent == kNone) continue;
+    const double radius = std::log(parent_radius_of(state, b) / parent_radius_of(state, source));
+    const double length = std::log(length_of_template(state, b) / length_of_template(state, source));
+    const double width = std::log(template_start(state, b) / template_start(state, source));
+    const double apart = radius * radius + length * length + width * width;
+    if (apart < kAlike) others.emplace_back(apart + 0.3 * state.template_uses[b], b);
+  }
+  std::sort(others.begin(), others.end());
+  return others[static_cast<std::size_t>(rng.below(std::min<int>(kSimilar, static_cast<int>(others.size()))))].second;
+}
+
+struct Place {
+  double score;
+  int node;
+  bool mirrored;
+};
+
+// Furcation value of the learnt classifier at a node, in standard deviations of nothing in particular: a nudge.
+double classifier_nudge(const GrowthState& state, const GrowingBranch& branch, int node) {
+  const FurcationModel& model = state.style.furcation;
+  if (!model.trained) return 0.0;
+  int before = node, after = branch.count() - 1 - node;
+  for (const int fork : branch.forks) {
+    if (fork <= node) before = std::min(before, node - fork);
+    if (fork >= node) after = std::min(after, fork - node);
+  }
+  const std::vector<double> features = furcation_features(branch.turns, branch.radii, node, before, after,
+                                                          state.style.unit_radius, state.style.bending, model);
+  return 0.25 * std::clamp(furcation_value(model, features), -2.0, 2.0);
+}
+
+std::vector<Place> rank_places(const GrowthState& state, int number, int source, Rng& rng) {
+  const GrowingBranch& branch = state.branches[number];
+  const SourceBranch& child = state.style.hierarchy.branches[source];
+  const BendingModel& bending = state.style.bending;
+  const double place_in_template = child.parent_vertex / static_cast<double>(std::max(1, bending.length_of(child.parent) - 1));
+  const double reach = std::min(0.6 * length_of_template(state, source), 4.0 * state.style.hierarchy.spacing + 40.0);
+  const int last = branch.count() - 1;
+  std::vector<Place> places;
+  for (int node = 2; node < last - 1; ++node) {
+    if (fork_blocked(state, branch, node)) continue;
+    const double off = (node / static_cast<double>(last) - place_in_template) / kPlaceSpread;
+    const double width = std::log(branch.radii[node] / parent_radius_of(state, source));
+    const double common = -0.5 * off * off - 0.5 * width * width + classifier_nudge(state, branch, node);
+    for (const bool mirrored : {false, true}) {
+      if (mirrored && !state.style.mirror) continue;
+      const double direction = tangent_at(branch, node) + (mirrored ? -0.8 : 0.8) * child.start_angle;
+      const double skip = branch.radii[node] + 0.6 * state.style.hierarchy.spacing;
+      const double room = free_way(state, branch.points[node], direction, skip, reach);
+      places.push_back({common + 2.0 * junction_likeness(state, branch, node, source, mirrored) +
+                            1.5 * std::log(0.08 + room) + 0.4 * rng.normal(),
+                        node, mirrored});
+    }
+  }
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    if (a.score != b.score) return a.score > b.score;
+    return a.node != b.node ? a.node < b.node : a.mirrored < b.mirrored;
+  });
+  return places;
+}
+
+}  // namespace
+
+double tangent_at(const GrowingBranch& branch, int node) {
+  const int last = branch.count() - 1;
+  return angle_of(branch.points[std::min(last, node + 2)] - branch.points[std::max(0, node - 2)]);
+}
+
+Vec2 tree_root(const GrowthState& state, int branch) {
+  while (state.branches[branch].parent != kNone) branch = state.branches[branch].parent;
+  return state.branches[branch].points.front();
+}
+
+bool fork_blocked(const GrowthState& state, const GrowingBranch& branch, int node) {
+  const int gap = std::max(state.style.hierarchy.furcation_gap, 2);
+  if (!state.ground.inside(branch.points[node])) return true;
+  return std::any_of(branch.forks.begin(), branch.forks.end(), [&](int fork) { return std::abs(fork - node) <= gap; });
+}
+
+double junction_likeness(const GrowthState& state, const GrowingBranch& parent, int node, int source, bool mirrored) {
+  const BendingModel& bending = state.style.bending;
+  const SourceBranch& child = state.style.hierarchy.branches[source];
+  const int first = bending.first[child.parent], count = bending.length_of(child.parent), last = parent.count() - 1;
+  double angle = 0.0, radius = 0.0;
+  int angles = 0, radii = 0;
+  for (int j = -bending.history; j <= bending.history; ++j) {
+    const int own = node + j, other = child.parent_vertex + j;
+    if (own < 0 || other < 0 || own > last || other >= count) continue;
+    radius += std::pow(parent.radii[own] - bending.radius[first + other], 2);
+    ++radii;
+    if (own == 0 || other == 0 || own == last || other == count - 1) continue;
+    const double turn = mirrored ? -bending.alpha[first + other] : bending.alpha[first + other];
+    angle += std::pow(parent.turns[own] - turn, 2);
+    ++angles;
+  }
+  const double a = angles > 0 ? std::sqrt(angle / angles) / bending.angle_gain : 1.0;
+  const double r = radii > 0 ? std::sqrt(radius / radii) / bending.radius_gain : 1.0;
+  return std::log(likeness(a) * likeness(r));
+}
+
+int place_child(GrowthState& state, const ChildPlan& plan, Rng& rng) {
+  GrowingBranch child = plan_branch(state, plan, rng);
+  if (!state.ground.inside(child.points.front())) return kNone;
+  if (state.occupancy.link_blocked(state.branches, plan.parent, plan.node, child.points.front())) return kNone;
+  const int number = state.start(child);
+  const Extension stretch = first_stretch(state, child);
+  const bool dense = state.occupancy.density(state.branches, number, stretch.points.back(), child.count()) > kDenseStart;
+  if (dense || state.occupancy.meet(state.branches, number, stretch).blocked) {
+    state.take_back(number);
+    return kNone;
+  }
+  state.commit(number, stretch);
+  const double reach = std::min(0.6 * child.length, 4.0 * state.style.hierarchy.spacing + 40.0);
+  state.branches[number].heading =
+      plan.heading ? *plan.heading
+                   : draw_heading(state, child.points.front(), child.start_direction + 0.5 * template_turn(state, child),
+                                  child.order, reach, tree_root(state, plan.parent), rng);
+  aim_at_frame(state, state.branches[number]);
+  grow_branch(state, number, rng, false);
+  const GrowingBranch& grown = state.branches[number];
+  const double arc = grown.arc(state.style.step);
+  const bool stunted = grown.stop == GrowthStop::Stuck && arc < kTooShort * grown.length &&
+                       grown.length > 3.0 * state.style.bending.extension * state.style.step;
+  const bool ends_free = grown.stop == GrowthStop::Stuck || grown.stop == GrowthStop::None;
+  const bool stump = ends_free && arc < 4.0 * grown.radii.front();
+  if (!stunted && !stump) return number;
+  state.take_back(number);
+  return kNone;
+}
+
+std::vector<int> list_children(const GrowthState& state, int number, double share, Rng& rng) {
+  const GrowingBranch& branch = state.branches[number];
+  const int own = state.style.bending.length_of(branch.source) - 1;
+  const double ratio = (branch.count() - 1) / static_cast<double>(std::max(1, own));
+  std::vector<int> list;
+  for (int b = 0; b < static_cast<int>(state.style.hierarchy.branches.size()); ++b) {
+    if (state.style.hierarchy.branches[b].parent != branch.source) continue;
+    // The large ones make the hierarchy: only small ones are left to the room there is.
+    const bool large = state.style.bending.length_of(b) > 0.25 * own;
+    for (double expected = (large ? 1.0 : share) * std::min(ratio, 2.0); expected > 0.0; expected -= 1.0) {
+      if (rng.uniform() >= expected) continue;
+      list.push_back(rng.uniform() < kSwapped ? similar_template(state, b, rng) : b);
+    }
+  }
+  std::stable_sort(list.begin(), list.end(), [&](int a, int b) {
+    return state.style.bending.length_of(a) > state.style.bending.length_of(b);
+  });
+  return list;
+}
+
+int settle_child(GrowthState& state, int number, int source, Rng& rng) {
+  std::vector<Place> tried;
+  // A large child is worth a long search.
+  const int tries = state.style.bending.length_of(source) > 8 * state.style.bending.extension ? 3 * kTries : kTries;
+  for (const Place& place : rank_places(state, number, source, rng)) {
+    const bool near = std::any_of(tried.begin(), tried.end(), [&](const Place& other) {
+      return other.mirrored == place.mirrored && std::abs(other.node - place.node) < 3;
+    });
+    if (near) continue;
+    tried.push_back(place);
+    ChildPlan plan;
+    plan.parent = number;
+    plan.node = place.node;
+    plan.source = source;
+    plan.mirrored = place.mirrored;
+    const int child = place_child(state, plan, rng);
+    if (child != kNone) return child;
+    if (static_cast<int>(tried.size()) >= tries) break;
+  }
+  return kNone;
+}
+
+}  // namespace ramify

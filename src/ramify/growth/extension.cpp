@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/growth/extension.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ramify/geometry/segment.h"
+#include "ramify/growth/candidates.h"
+#include "ramify/growth/raster_density.h"
+
+namespace ramify {
+namespace {
+
+constexpr int kBest = 24;              // candidates that are tested (PICTURES 12.2-8)
+constexpr double kEpsilon = 1e-3;      // of the paper's Q / (D + epsilon)
+constexpr double kDensityFloor = 0.1;  // the same for mean densities (12.2-8: not separable from the maximum)
+constexpr double kJoinAngle = 35.0 * kPi / 180.0;
+
+bool wants_join(const GrowthState& state, const GrowingBranch& branch) {
+  return state.style.hierarchy.branches[branch.source].end == BranchEnd::Join && !state.options.paper_exact;
+}
+
+bool related(const std::vector<GrowingBranch>& branches, int number, int other) {
+  return other == number || other == branches[number].parent || branches[other].parent == number;
+}
+
+class Stepper {
+ public:
+  Stepper(GrowthState& state, int number, Rng& rng, bool guided)
+      : state_(state), number_(number), rng_(rng), guided_(guided) {}
+
+  // One extension; false when nothing fits.
+  bool step() {
+    const GrowingBranch& branch = self();
+    const int m = state_.style.bending.extension;
+    double remaining = branch.length - branch.arc(state_.style.step);
+    const bool late = branch.arc(state_.style.step) > 0.6 * branch.length;
+    StepAim aim;
+    aim.guided = guided_;
+    if (wants_join(state_, branch)) {
+      if (late) aim.join = place_to_join();
+      remaining = std::max(remaining, m * state_.style.step);
+    }
+    aim.count = std::clamp(static_cast<int>(std::lround(remaining / state_.style.step)), 1, m);
+    const std::vector<Candidate> all = find_candidates(state_, number_, aim, 4 * kBest);
+    if (all.empty()) return false;
+    const auto part = [&](std::size_t from, std::size_t to) {
+      from = std::min(from, all.size());
+      return std::vector<Candidate>(all.begin() + static_cast<std::ptrdiff_t>(from),
+                                    all.begin() + static_cast<std::ptrdiff_t>(std::min(to, all.size())));
+    };
+    // The retry ladder of ALGORITHMS 4.5.
+    if (take_one(part(0, kBest), aim.count)) return true;
+    if (take_one(part(kBest, 4 * kBest), aim.count)) return true;
+    const int shorter = std::max(1, std::min(aim.count, m / 2));
+    if (take_one(part(0, kBest), shorter)) return true;
+    for (const double degrees : {10.0, -10.0, 20.0, -20.0, 35.0, -35.0}) {
+      std::vector<Candidate> turned = part(0, kBest);
+      for (Candidate& candidate : turned) candidate.rotation = degrees * kPi / 180.0;
+      if (take_one(turned, shorter)) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Scored {
+    double score;
+    Extension extension;
+  };
+
+  const GrowingBranch& self() const { return state_.branches[number_]; }
+
+  // Tests and scores the candidates; draws among the c best by their scores.
+  bool take_one(const std::vector<Candidate>& candidates, int count) {
+    std::vector<Scored> fits;
+    for (const Candidate& candidate : candidates) {
+      Scored scored{candidate.score, extend_by(state_, number_, candidate, count)};
+      if (scored.extension.points.empty() || !make_room(scored.extension)) continue;
+      scored.score += surroundings(scored.extension);
+      fits.push_back(std::move(scored));
+    }
+    if (fits.empty()) return false;
+    std::stable_sort(fits.begin(), fits.end(), [](const Scored& a, const Scored& b) { return a.score > b.score; });
+    fits.resize(std::min<std::size_t>(fits.size(), static_cast<std::size_t>(state_.options.candidates)));
+    std::vector<double> weights;
+    for (const Scored& fit : fits) weights.push_back(std::exp(fit.score - fits.front().score));
+    state_.commit(number_, fits[static_cast<std::size_t>(rng_.discrete(weights))].extension);
+    return true;
+  }
+
+  // False when the extension meets something; an extension that may end on what it meets is cut there.
+  bool make_room(Extension& extension) const {
+    if (state_.options.raster_density) return !crosses_density(state_, number_, extension);
+    const Hit hit = state_.occupancy.meet(state_.branches, number_, extension);
+    if (!hit.blocked) return true;
+    const GrowingBranch& branch = self();
+    if (hit.capsule == kNone || !wants_join(state_, branch) || branch.arc(state_.style.step) < 0.3 * branch.length) {
+      return false;
+    }
+    const Capsule& target = state_.occupancy.index()[hit.capsule];
+    return !related(state_.branches, number_, target.owner) && end_on(extension, hit.point, target);
+  }
+
+  // Ends the extension inside the target's rim, short of its axis; false at a grazing angle.
+  bool end_on(Extension& extension, int at, const Capsule& target) const {
+    const Vec2 before = at > 0 ? extension.points[at - 1] : self().points.back();
+    const Vec2 edge = target.b - target.a;
+    double angle = std::abs(wrap_angle(angle_of(extension.points[at] - before) - angle_of(edge)));
+    angle = std::min(angle, kPi - angle);
+    if (angle < kJoinAngle) return false;
+    const PointOnSegment foot = nearest_on_segment(extension.points[at], target.a, target.b);
+    const Vec2 way = target.a + edge * foot.fraction - before;
+    const double back = 0.6 * std::min(target.radius_a, target.radius_b);
+    if (way.norm() <= back + 0.5) return false;
+    Extension cut;
+    cut.points.assign(extension.points.begin(), extension.points.begin() + at);
+    cut.points.push_back(before + way * ((way.norm() - back) / way.norm()));
+    // The last stretch may run past other branches or along this one: it must meet the target alone.
+    const Vec2 end = cut.points.back();
+    bool clear = true;
+    state_.occupancy.index().visit_box(before.cwiseMin(end) - Vec2::Constant(2.0), before.cwiseMax(end) + Vec2::Constant(2.0),
+                                       [&](int number) {
+                                         const Capsule& other = state_.occupancy.index()[number];
+                                         if (other.owner == number_ && self().count() - other.place < 4) return true;
+                                         clear = segment_distance(before, end, other.a, other.b) > 0.25;
+                                         return clear;
+                                       });
+    if (!clear || state_.ground.blocked(end)) return false;
+    const auto keep = [&](auto& values) { values.resize(static_cast<std::size_t>(at) + 1); };
+    keep(extension.radii);
+    keep(extension.turns);
+    keep(extension.copied);
+    extension.points = cut.points;
+    extension.stop = GrowthStop::Join;
+    return true;
+  }
+
+  // Density, free space, painted map and guide along the extension and beyond it.
+  double surroundings(const Extension& extension) const {
+    const GrowingBranch& branch = self();
+    const Vec2 from = branch.points.back(), to = extension.points.back();
+    const Vec2 along = (to - from).norm() > 1e-9 ? Vec2((to - from).normalized()) : direction_of(direction_at(branch, branch.count() - 1));
+    const double reach = 0.5 * static_cast<double>(extension.points.size()) * state_.style.step;
+    const int beyond = branch.count() + static_cast<int>(extension.points.size());
+    if (state_.options.raster_density) return -std::log(raster_maximum(state_, number_, from, along, 6.0 * reach) + kEpsilon);
+    const bool joining = wants_join(state_, branch) && branch.arc(state_.style.step) > 0.5 * branch.length;
+    double density = 0.0, free = 0.0, wanted = 0.0;
+    int densities = 0, places = 0;
+    const auto look = [&](const Vec2& point, int node, bool dense) {
+      free += state_.coverage.unfilled(point);
+      wanted += state_.ground.wanted(point);
+      ++places;
+      if (!dense || !state_.ground.inside(point)) return;
+      density += state_.occupancy.density(state_.branches, number_, point, node);
+      ++densities;
+    };
+    for (std::size_t j = 0; j < extension.points.size(); ++j) {
+      look(extension.points[j], branch.count() + static_cast<int>(j), j % 2 == 1);
+    }
+    for (int j = 1; j <= 4; ++j) look(to + along * (reach * j), beyond, true);
+    double score = 0.5 * std::log(0.05 + free / places);
+    if (!joining) score -= std::log(density / std::max(1, densities) + kDensityFloor);
+    if (state_.ground.painted()) score -= std::log(1.0 - wanted / places + kDensityFloor);
+    return score + (guided_ ? guidance(extension) : 0.0);
+  }
+
+  // Q / (G + epsilon), G over the extension only: a straight ray would leave a curved valley (ALGORITHMS 4.6). On the
+  // valley's floor G says nothing about the way, so the direction to a place ahead on the path is asked for as well.
+  double guidance(const Extension& extension) const {
+    const Guide& guide = state_.guide;
+    double sum = 0.0;
+    for (const Vec2& point : extension.points) sum += guide.value(point);
+    const Vec2 from = self().points.back();
+    const double ahead = guide.arc_at(from) + 2.0 * static_cast<double>(extension.points.size()) * state_.style.step;
+    const double wanted = angle_of(guide.point_at(ahead) - from);
+    const double turn = 1.0 - std::cos(angle_of(extension.points.back() - from) - wanted);
+    return -std::log(sum / static_cast<double>(extension.points.size()) + kEpsilon) - 4.0 * turn;
+  }
+
+  // The nearest place of a branch that is no relative, those ahead preferred.
+  std::optional<Vec2> place_to_join() const {
+    const GrowingBranch& branch = self();
+    const int tip = branch.count() - 1;
+    const Vec2 from = branch.points.back();
+    const Vec2 along = (from - branch.points[std::max(0, tip - state_.style.bending.extension)]).stableNormalized();
+    double best = std::max(3.0 * state_.style.hierarchy.spacing, 0.25 * branch.length);
+    std::optional<Vec2> place;
+    const Vec2 reach = Vec2::Constant(best);
+    const CapsuleIndex& index = state_.occupancy.index();
+    index.visit_box(from - reach, from + reach, [&](int number) {
+      const Capsule& other = index[number];
+      if (related(state_.branches, number_, other.owner)) return true;
+      const Vec2 way = 0.5 * (other.a + other.b) - from;
+      const double distance = way.norm();
+      if (distance < 1.0) return true;
+      const double cost = distance * (1.0 + 2.0 * std::max(0.0, 0.7 - way.dot(along) / distance));
+      if (cost < best) {
+        best = cost;
+        place = from + way;
+      }
+      return true;
+    });
+    return place;
+  }
+
+  GrowthState& state_;
+  int number_;
+  Rng& rng_;
+  bool guided_;
+};
+
+// A branch whose template ends by leaving the frame goes on past its length if the frame is near; one that joins too.
+double longest(const GrowthState& state, const GrowingBranch& branch) {
+  const BranchEnd end = state.style.hierarchy.branches[branch.source].end;
+  return branch.length * (end == BranchEnd::Tip || state.options.paper_exact ? 1.0 : 1.5);
+}
+
+// Ends made by growth alone fade as the exemplar's tips do.
+void taper_tip(GrowthState& state, int number) {
+  const GrowingBranch& branch = state.branches[number];
+  if (branch.stop == GrowthStop::Frame || branch.stop == GrowthStop::Join) return;
+  const bool learnt = state.style.hierarchy.branches[branch.source].end == BranchEnd::Tip;
+  if (learnt && branch.arc(state.style.step) > 0.9 * branch.length) return;  // the template's own tip
+  const std::vector<double>& profile = state.style.hierarchy.tip_profile;
+  const int last = static_cast<int>(profile.size()) - 1, tip = branch.count() - 1;
+  for (int j = 0; j <= std::min(last, tip); ++j) {
+    state.branches[number].radii[tip - j] = std::max(0.5, branch.radii[tip - j] * profile[j]);
+  }
+}
+
+}  // namespace
+
+void aim_at_frame(const GrowthState& state, GrowingBranch& branch) {
+  if (state.style.hierarchy.branches[branch.source].end != BranchEnd::Frame || !branch.heading) return;
+  const Vec2 along = direction_of(*branch.heading);
+  for (double way = 0.5 * branch.length; way <= 2.5 * branch.length; way += state.style.step) {
+    if (state.ground.inside(branch.points.back() + along * way)) continue;
+    branch.length = 1.1 * way;
+    return;
+  }
+}
+
+void grow_branch(GrowthState& state, int number, Rng& rng, bool guided) {
+  const int m = state.style.bending.extension;
+  Stepper stepper(state, number, rng, guided);
+  int setbacks = 0;
+  for (;;) {
+    state.monitor.check();
+    const GrowingBranch& branch = state.branches[number];
+    if (branch.stop != GrowthStop::None) break;
+    const double arc = branch.arc(state.style.step);
+    if (arc >= longest(state, branch) - 0.5 * state.style.step) break;
+    if (stepper.step()) continue;
+    if (branch.count() <= m + 1 || ++setbacks > 3) {
+      state.branches[number].stop = GrowthStop::Stuck;
+      break;
+    }
+    state.step_back(number, m);
+  }
+  taper_tip(state, number);
+}
+
+}  // namespace ramify

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/growth/roots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "ramify/growth/children.h"
+#include "ramify/growth/extension.h"
+
+namespace ramify {
+namespace {
+
+constexpr double kJitter = 0.08;      // of the side (PICTURES 2: 10 %)
+constexpr double kTurnJitter = 0.2;   // rad (12.2-5)
+constexpr int kTries = 8;
+
+double template_length(const Style& style, int source) { return (style.bending.length_of(source) - 1) * style.step; }
+
+double template_direction(const Style& style, int source) {
+  const int first = style.bending.first[source];
+  const int ahead = std::min(style.bending.length_of(source) - 1, style.bending.extension);
+  return angle_of(style.bending.point[first + ahead] - style.bending.point[first]);
+}
+
+double template_heading(const Style& style, int source) {
+  return angle_of(style.bending.point[style.bending.first[source + 1] - 1] - style.bending.point[style.bending.first[source]]);
+}
+
+// The exemplar's place on this canvas: distances to the frame scale with it.
+Vec2 on_this_canvas(const GrowthState& state, const Vec2& point) {
+  const Size from = state.style.exemplar_size, to = state.target.size;
+  return {(point.x() + 0.5) * to.width / from.width - 0.5, (point.y() + 0.5) * to.height / from.height - 0.5};
+}
+
+// A place on the frame may slide along its side only.
+Vec2 slide_along_frame(const Vec2& point, Vec2 jitter, Size size) {
+  const double left = point.x(), top = point.y(), right = size.width - 1 - left, bottom = size.height - 1 - top;
+  const double nearest = std::min({left, top, right, bottom});
+  (nearest == top || nearest == bottom ? jitter.y() : jitter.x()) = 0.0;
+  return jitter;
+}
+
+RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tree_jitter, Rng& rng) {
+  const SourceBranch& branch = state.style.hierarchy.branches[source];
+  const Size size = state.target.size;
+  RootPlan plan;
+  plan.source = source;
+  const Vec2 place = on_this_canvas(state, state.style.bending.point[state.style.bending.first[source]]);
+  const Vec2 jitter = branch.starts_on_frame ? slide_along_frame(place, tree_jitter, size) : tree_jitter;
+  plan.position = (place + jitter).cwiseMax(Vec2::Zero()).cwiseMin(Vec2(size.width - 1, size.height - 1));
+  const double turn = kTurnJitter * rng.normal();
+  plan.direction = template_direction(state.style, source) + turn;
+  plan.heading = template_heading(state.style, source) + 0.5 * turn + kTurnJitter * rng.normal();
+  plan.length = template_length(state.style, source) * std::exp(0.15 * rng.normal());
+  return plan;
+}
+
+// Straight points from outside the canvas to a root on the frame; none for a root inside.
+Extension lead_in(const GrowthState& state, const GrowingBranch& root) {
+  Extension lead;
+  const Vec2 back = direction_of(root.start_direction) * -state.style.step, place = root.points.front();
+  const int most = 1 + static_cast<int>(1.5 * root.radii.front() / state.style.step);
+  if (state.ground.inside(place + 2.0 * back) && state.ground.inside(place + back)) return lead;
+  for (int j = most - 1; j >= 0; --j) {
+    lead.points.push_back(place + back * j);
+    lead.radii.push_back(root.radii.front());
+    lead.turns.push_back(0.0);
+    lead.copied.push_back(0);
+  }
+  return lead;
+}
+
+// All roots of the exemplar, each tree moved as one: strokes from one place stay together.
+std::vector<int> grow_own_roots(GrowthState& state) {
+  std::vector<int> grown;
+  std::map<int, Vec2> tree_jitter;
+  const Size size = state.target.size;
+  for (const int source : root_templates(state.style)) {
+    state.monitor.check();
+    const int tree = state.style.hierarchy.branches[source].tree;
+    Rng rng = state.rng.child("grow.root", static_cast<std::uint64_t>(source));
+    for (int attempt = 0; attempt < kTries; ++attempt) {
+      const Vec2 drawn(rng.uniform(-1, 1) * kJitter * size.width, rng.uniform(-1, 1) * kJitter * size.height);
+      if (attempt > 0 || !tree_jitter.contains(tree)) tree_jitter[tree] = drawn;
+      const RootPlan plan = plan_from_template(state, source, tree_jitter[tree], rng);
+      if (!state.ground.inside(plan.position) || state.ground.blocked(plan.position)) continue;
+      const int number = place_root(state, plan, rng);
+      if (number == kNone) continue;
+      const GrowingBranch& branch = state.branches[number];
+      const bool good = branch.stop != GrowthStop::Stuck || branch.arc(state.style.step) > 0.3 * branch.length;
+      if (good || attempt + 1 == kTries) {
+        grown.push_back(number);
+        break;
+      }
+      state.take_back(number);
+    }
+  }
+  return grown;
+}
+
+// The template whose first direction is nearest to the wanted one, long ones preferred.
+int template_for(const Style& style, const std::optional<double>& direction, std::size_t turn) {
+  const std::vector<int> roots = root_templates(style);
+  if (!direction) return roots[turn % roots.size()];
+  return *std::max_element(roots.begin(), roots.end(), [&](int a, int b) {
+    const auto score = [&](int r) {
+      return std::cos(template_direction(style, r) - *direction) + 0.5 * std::log(template_length(style, r));
+    };
+    return score(a) < score(b);
+  });
+}
+
+std::vector<int> grow_given_roots(GrowthState& state) {
+  std::vector<int> grown;
+  for (std::size_t i = 0; i < state.target.roots.size(); ++i) {
+    const GrowthRoot& root = state.target.roots[i];
+    const std::string name = "root " + std::to_string(i + 1);
+    if (!state.ground.on_canvas(root.position)) throw InputError("", name + " lies outside the canvas");
+    if (state.ground.blocked(root.position)) throw InputError("", name + " lies on an obstacle or on black of the density map");
+    Rng rng = state.rng.child("grow.given_root", i);
+    RootPlan plan;
+    plan.source = template_for(state.style, root.direction, i);
+    plan.position = root.position;
+    plan.direction = root.direction.value_or(template_direction(state.style, plan.source));
+    if (!root.direction) plan.heading = template_heading(state.style, plan.source) + kTurnJitter * rng.normal();
+    plan.radius = root.radius;
+    plan.length = template_length(state.style, plan.source) * std::exp(0.15 * rng.normal());
+    const int number = place_root(state, plan, rng);
+    if (number != kNone) grown.push_back(number);
+  }
+  return grown;
+}
+
+int grow_guided_root(GrowthState& state) {
+  const std::vector<Vec2>& path = state.guide.path();
+  Rng rng = state.rng.child("grow.guided_root");
+  RootPlan plan;
+  plan.source = root_templates(state.style).front();
+  plan.position = path.front();
+  plan.direction = angle_of(state.guide.point_at(std::min(0.5 * state.guide.length(), 2.0 * state.style.feature_size)) - path.front());
+  plan.length = 1.15 * state.guide.length();  // bends make the way longer
+  plan.guided = true;
+  if (!state.target.roots.empty()) {
+    plan.position = state.target.roots.front().position;
+    plan.radius = state.target.roots.front().radius;
+    plan.direction = state.target.roots.front().direction.value_or(plan.direction);
+  }
+  return place_root(state, plan, rng);
+}
+
+}  // namespace
+
+std::vector<int> root_templates(const Style& style) {
+  std::vector<int> roots;
+  for (int b = 0; b < static_cast<int>(style.hierarchy.branches.size()); ++b) {
+    if (style.hierarchy.branches[b].parent == kNone) roots.push_back(b);
+  }
+  std::stable_sort(roots.begin(), roots.end(), [&](int a, int b) {
+    return style.bending.length_of(a) > style.bending.length_of(b);
+  });
+  return roots;
+}
+
+int place_root(GrowthState& state, const RootPlan& plan, Rng& rng) {
+  GrowingBranch root;
+  root.source = plan.source;
+  const double profile = state.style.bending.smooth_radius[state.style.bending.first[plan.source]];
+  root.radius_scale = plan.radius ? *plan.radius / profile : std::exp(0.1 * rng.normal());
+  root.points = {plan.position};
+  root.radii = {std::max(0.5, profile * root.radius_scale)};
+  root.turns = {0.0};
+  root.copied = {0};
+  root.start_direction = wrap_angle(plan.direction);
+  root.length = std::max(2.0 * state.style.step, plan.length);
+  root.heading = plan.guided ? std::nullopt : std::optional<double>(wrap_angle(plan.heading.value_or(plan.direction)));
+  root.course = rng.uniform(0.6, 1.0);
+  // A root on the frame starts outside, so that its rounded end is never seen.
+  const Extension lead = lead_in(state, root);
+  root.points.front() -= direction_of(root.start_direction) * (static_cast<double>(lead.points.size()) * state.style.step);
+  const int number = state.start(root);
+  state.commit(number, lead);
+  if (!plan.guided) aim_at_frame(state, state.branches[number]);
+  state.branches[number].length += static_cast<double>(lead.points.size()) * state.style.step;
+  grow_branch(state, number, rng, plan.guided);
+  if (state.branches[number].count() >= 4 + static_cast<int>(lead.points.size())) return number;
+  state.take_back(number);
+  return kNone;
+}
+
+std::vector<int> grow_roots(GrowthState& state) {
+  if (!state.guide.empty()) {
+    const int number = grow_guided_root(state);
+    return number == kNone ? std::vector<int>{} : std::vector<int>{number};
+  }
+  return state.target.roots.empty() ? grow_own_roots(state) : grow_given_roots(state);
+}
+
+}  // namespace ramify
