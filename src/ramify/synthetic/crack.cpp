@@ -18,20 +18,29 @@ TreePlan crack_plan(Size size, Rng rng) {
   plan.size = size;
   plan.clearance = 9.0 * s;
   plan.thinnest = 0.8;
-  plan.radius_noise = 0.2;
+  plan.radius_noise = 0.28;
   const auto jagged = [s](double kink, double homing, double home) {
-    return Course{13.0 * s, kink, 160.0 * s, 0.22, 6.0 * s, 0.22, homing / s, home};
+    return Course{.kink_length = 12.0 * s, .kink_angle = kink, .bend_length = 170.0 * s, .bend_angle = 0.25,
+                  .ripple_length = 6.0 * s, .ripple_angle = 0.20, .homing = homing / s, .home = home};
   };
   const bool flip = rng.uniform() < 0.5;
   const double heading = (flip ? kPi : 0.0) + rng.uniform(-0.3, 0.3);
-  plan.roots.push_back({Vec2(flip ? w + 8.0 : -8.0, h * rng.uniform(0.3, 0.7)), heading, 5.0 * s, 1e9, 0.35,
-                        jagged(0.42, 0.006, heading)});
+  plan.roots.push_back({.start = Vec2(flip ? w + 8.0 : -8.0, h * rng.uniform(0.35, 0.65)), .heading = heading,
+                        .radius = 4.6 * s, .shortest = 0.9 * w, .tip_share = 0.35,
+                        .course = jagged(0.42, 0.006, heading)});
   const double second = kPi * 0.5 + rng.uniform(-0.4, 0.4);
-  plan.roots.push_back({Vec2(w * (flip ? rng.uniform(0.15, 0.4) : rng.uniform(0.6, 0.85)), -8.0), second, 3.0 * s, 1e9,
-                        0.4, jagged(0.45, 0.006, second)});
-  plan.levels.push_back({8, 0.5, 1.2, 0.35, 0.9, 0.35, 0.65, 0.3, 60.0 * s, 0.75, 0.08, 0.92, 0.9, jagged(0.45, 0, 0)});
-  plan.levels.push_back({14, 0.5, 1.25, 0.25, 0.7, 0.4, 0.7, 0.4, 35.0 * s, 0.6, 0.1, 0.92, 0.9, jagged(0.5, 0, 0)});
-  plan.levels.push_back({16, 0.5, 1.3, 0.2, 0.6, 0.5, 0.8, 0.6, 20.0 * s, 0.6, 0.1, 0.92, 0.9, jagged(0.5, 0, 0)});
+  plan.roots.push_back({.start = Vec2(w * (flip ? rng.uniform(0.15, 0.4) : rng.uniform(0.6, 0.85)), -8.0),
+                        .heading = second, .radius = 2.8 * s, .tip_share = 0.4,
+                        .course = jagged(0.45, 0.006, second)});
+  plan.levels.push_back({.count = 8, .angle_low = 0.5, .angle_high = 1.2, .length_low = 0.35, .length_high = 0.9,
+                         .ratio_low = 0.35, .ratio_high = 0.65, .tip_share = 0.3, .shortest = 60.0 * s,
+                         .alternate = 0.75, .first = 0.08, .last = 0.92, .course = jagged(0.45, 0, 0)});
+  plan.levels.push_back({.count = 14, .angle_low = 0.5, .angle_high = 1.25, .length_low = 0.25, .length_high = 0.7,
+                         .ratio_low = 0.4, .ratio_high = 0.7, .tip_share = 0.4, .shortest = 35.0 * s,
+                         .alternate = 0.6, .first = 0.1, .last = 0.92, .course = jagged(0.5, 0, 0)});
+  plan.levels.push_back({.count = 16, .angle_low = 0.5, .angle_high = 1.3, .length_low = 0.2, .length_high = 0.6,
+                         .ratio_low = 0.5, .ratio_high = 0.8, .tip_share = 0.6, .shortest = 20.0 * s,
+                         .alternate = 0.6, .first = 0.1, .last = 0.92, .course = jagged(0.5, 0, 0)});
   return plan;
 }
 
@@ -89,7 +98,7 @@ Scene draw_crack(Size size, const Rng& rng, const Monitor& monitor) {
   const Vec2 sun = scene.light.head<2>().normalized();
   scene.branches = draw_tree(crack_plan(size, rng.child("plan")), rng.child("tree"), monitor);
   monitor.report(0.3);
-  const Image<BranchSample> field = branch_field(size, scene.branches, 14.0 * s + 4.0);
+  const Image<BranchSample> field = branch_field(skeleton_of(size, scene.branches), 14.0 * s + 4.0);
   const ColorImage wall = concrete(size, sun, rng.child("concrete"));
   monitor.report(0.7);
   const Image<CellSample> rubble = cells(size, 4.2 * s, 0.9, rng.child("rubble"));

@@ -16,30 +16,40 @@ namespace {
 
 constexpr double kDown = 0.5 * kPi;
 
+// Leaders advance in steps: short straight pieces, each turned against the one before.
 Course stepped(double s, double kink, double homing, double home) {
-  return {14.0 * s, kink, 90.0 * s, 0.25, 7.0 * s, 0.28, homing / s, home};
+  return {.kink_length = 9.0 * s, .kink_angle = kink, .bend_length = 90.0 * s, .bend_angle = 0.28,
+          .ripple_length = 7.0 * s, .ripple_angle = 0.16, .homing = homing / s, .home = home};
 }
 
 TreePlan bolt_plan(Size size, double horizon, Rng rng) {
   const double s = scale_of(size), w = size.width;
   TreePlan plan;
   plan.size = size;
-  plan.clearance = 5.0 * s;
+  plan.clearance = 3.5 * s;
+  plan.murray = 0.35;
   plan.thinnest = 0.7;
   plan.radius_noise = 0.07;
   plan.allowed = [horizon](const Vec2& p) { return p.y() < horizon; };
   const double side = rng.uniform() < 0.5 ? -1.0 : 1.0;
   const double lean = kDown + side * rng.uniform(0.05, 0.3);
-  plan.roots.push_back({Vec2(w * (0.5 + side * rng.uniform(0.0, 0.18)), -8.0), lean, 4.6 * s, 1e9, 0.65,
-                        stepped(s, 0.42, 0.010, lean)});
-  plan.roots.push_back({Vec2(w * (0.5 - side * rng.uniform(0.2, 0.36)), -6.0), kDown - side * rng.uniform(-0.1, 0.5),
-                        2.6 * s, 1.1 * horizon * rng.uniform(0.4, 0.75), 0.35, stepped(s, 0.45, 0.008, kDown)});
-  plan.levels.push_back({11, 0.35, 0.95, 0.25, 0.65, 0.30, 0.62, 0.35, 40.0 * s, 0.6, 0.08, 0.9, 0.9,
-                         stepped(s, 0.45, 0.006, kDown)});
-  plan.levels.push_back({20, 0.40, 1.05, 0.15, 0.45, 0.40, 0.70, 0.45, 24.0 * s, 0.6, 0.12, 0.92, 0.9,
-                         stepped(s, 0.5, 0.005, kDown)});
-  plan.levels.push_back({18, 0.45, 1.1, 0.10, 0.30, 0.5, 0.8, 0.6, 14.0 * s, 0.6, 0.15, 0.9, 0.9,
-                         stepped(s, 0.5, 0.004, kDown)});
+  plan.roots.push_back({.start = Vec2(w * (0.5 + side * rng.uniform(0.0, 0.18)), -8.0), .heading = lean,
+                        .radius = 3.7 * s, .shortest = 0.9 * horizon, .tip_share = 0.7,
+                        .course = stepped(s, 0.42, 0.010, lean)});
+  plan.roots.push_back({.start = Vec2(w * (0.5 - side * rng.uniform(0.2, 0.36)), -6.0),
+                        .heading = kDown - side * rng.uniform(-0.1, 0.5), .radius = 2.3 * s,
+                        .length = horizon * rng.uniform(0.45, 0.8), .tip_share = 0.35,
+                        .course = stepped(s, 0.45, 0.008, kDown)});
+  plan.levels.push_back({.count = 13, .angle_low = 0.5, .angle_high = 1.05, .length_low = 0.3, .length_high = 0.7,
+                         .ratio_low = 0.25, .ratio_high = 0.5, .tip_share = 0.35, .shortest = 40.0 * s,
+                         .alternate = 0.6, .first = 0.08, .last = 0.9, .course = stepped(s, 0.48, 0.005, kDown)});
+  plan.levels.push_back({.count = 26, .angle_low = 0.45, .angle_high = 1.0, .length_low = 0.2, .length_high = 0.5,
+                         .ratio_low = 0.35, .ratio_high = 0.65, .tip_share = 0.45, .shortest = 20.0 * s,
+                         .alternate = 0.6, .first = 0.12, .last = 0.92, .course = stepped(s, 0.5, 0.005, kDown)});
+  plan.levels.push_back({.count = 30, .angle_low = 0.45, .angle_high = 1.0, .length_low = 0.15,
+                         .length_high = 0.45, .ratio_low = 0.5, .ratio_high = 0.8, .tip_share = 0.6,
+                         .shortest = 11.0 * s, .alternate = 0.6, .first = 0.15, .last = 0.9,
+                         .course = stepped(s, 0.5, 0.004, kDown)});
   return plan;
 }
 
@@ -101,8 +111,8 @@ ColorImage town_lights(Size size, const std::vector<float>& top, Rng rng) {
     lights(x, y) = power * (tint < 0.6 ? Rgb{1.0f, 0.62f, 0.25f} : tint < 0.9 ? Rgb{1.0f, 0.9f, 0.72f}
                                                                             : Rgb{0.6f, 1.0f, 0.8f});
   }
-  const ColorImage near = gaussian_blur(lights, 0.8 * s), far = gaussian_blur(lights, 5.0 * s);
-  return painted(size, [&](int x, int y) { return 3.5f * near(x, y) + 16.0f * far(x, y); });
+  const ColorImage near = gaussian_blur(lights, 0.75 * s), far = gaussian_blur(lights, 3.0 * s);
+  return painted(size, [&](int x, int y) { return 4.5f * near(x, y) + 4.0f * far(x, y); });
 }
 
 struct Glow {
@@ -128,16 +138,16 @@ ColorImage glow_of(const ScalarImage& core, double s) {
 // Linear light of the clouds: dim by themselves, lit where the bolt is near.
 ColorImage night_sky(Size size, const ScalarImage& core, double horizon, const Rng& rng) {
   const double s = scale_of(size);
-  const ScalarImage shape = power_noise(size, {420.0 * s, 3.0, 3.3, 1.7, 1.0}, rng.child("cloud"));
+  const ScalarImage shape = power_noise(size, {420.0 * s, 3.0, 3.0, 1.7, 1.0}, rng.child("cloud"));
   const ScalarImage dx = power_noise(size, {260.0 * s, 30.0 * s, 2.8}, rng.child("dx"));
   const ScalarImage dy = power_noise(size, {260.0 * s, 30.0 * s, 2.8}, rng.child("dy"));
-  const ScalarImage cloud = warped(shape, dx, dy, 26.0 * s);
+  const ScalarImage cloud = warped(shape, dx, dy, 13.0 * s);
   const ScalarImage near = gaussian_blur(core, 130.0 * s), far = gaussian_blur(core, 330.0 * s);
   return painted(size, [&](int x, int y) {
     const float up = 1.0f - static_cast<float>(y / horizon);
     const float thick = smooth_step(-1.6f, 2.0f, cloud(x, y) + 0.9f * up);
     const float own = 0.006f + 0.016f * thick + 0.02f * smooth_step(0.25f, -0.1f, up);
-    const float lit = (5.0f * near(x, y) + 6.0f * far(x, y)) * (0.12f + 1.25f * thick * thick);
+    const float lit = (9.0f * near(x, y) + 3.5f * far(x, y)) * (0.10f + 1.25f * thick * thick);
     const Rgb night{0.62f, 0.72f, 1.0f}, violet{0.62f, 0.56f, 1.0f};
     const Rgb ember{0.016f, 0.009f, 0.005f};  // the town's light under the clouds
     const float low = std::exp(-std::max(0.0f, up) * 6.0f);
@@ -163,7 +173,7 @@ Scene draw_lightning(Size size, const Rng& rng, const Monitor& monitor) {
   scene.polarity = Polarity::Glow;
   scene.branches = draw_tree(bolt_plan(size, horizon, rng.child("plan")), rng.child("tree"), monitor);
   monitor.report(0.2);
-  const Image<BranchSample> field = branch_field(size, scene.branches, 6.0 + 4.0 * s);
+  const Image<BranchSample> field = branch_field(skeleton_of(size, scene.branches), 6.0 + 4.0 * s);
   const ScalarImage core = core_light(field, scene.branches, s, rng.child("flicker"));
   const ColorImage glow = glow_of(core, s), sky = night_sky(size, core, horizon, rng.child("sky"));
   monitor.report(0.6);
@@ -178,7 +188,7 @@ Scene draw_lightning(Size size, const Rng& rng, const Monitor& monitor) {
     return Rgb{srgb_from_linear(light.r), srgb_from_linear(light.g), srgb_from_linear(light.b)};
   });
   scene.regions.push_back(below(size, top));
-  scene.color = photograph(scene.color, {0.35, 0.010, 0.7, 0.6, 0.25}, rng.child("camera"));
+  scene.color = photograph(scene.color, {0.35, 0.007, 0.6, 0.6, 0.25}, rng.child("camera"));
   return scene;
 }
 

@@ -9,6 +9,24 @@
 
 namespace ramify {
 
+Skeleton skeleton_of(Size size, const std::vector<AnnotatedBranch>& branches) {
+  Skeleton skeleton(size);
+  std::vector<int> first(branches.size());
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    const AnnotatedBranch& branch = branches[b];
+    Node node;
+    node.parent = branch.parent ? first[branch.parent->branch] + branch.parent->point : kNone;
+    node.order = branch.parent ? skeleton[node.parent].order + 1 : 0;
+    first[b] = skeleton.count();
+    for (std::size_t i = 0; i < branch.points.size(); ++i) {
+      node.position = Vec3(branch.points[i].x(), branch.points[i].y(), 0.0);
+      node.radius = branch.radii[i];
+      node.parent = skeleton.append(node);
+    }
+  }
+  return skeleton;
+}
+
 double scale_of(Size size) { return std::sqrt(static_cast<double>(size.width) * size.height / (960.0 * 640.0)); }
 
 float coverage(float distance, float soft) { return 0.5f * std::erfc(distance / (1.41421356f * soft)); }

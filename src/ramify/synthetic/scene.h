@@ -20,6 +20,10 @@ struct Scene {
   Vec3 light = {0, 0, 1};
 };
 
+// Branch by branch, so that a branch's own next point always has a lower index than the children that leave it and
+// branches keep their numbers.
+Skeleton skeleton_of(Size size, const std::vector<AnnotatedBranch>& branches);
+
 // One file per kind.
 Scene draw_lightning(Size size, const Rng& rng, const Monitor& monitor);
 Scene draw_river(Size size, const Rng& rng, const Monitor& monitor);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "ramify/core/error.h"
-#include "ramify/synthetic/branch_field.h"
+#include "ramify/skeleton/draw.h"
 #include "ramify/synthetic/scene.h"
 
 namespace ramify {
@@ -19,25 +19,6 @@ Scene draw(SyntheticKind kind, Size size, const Rng& rng, const Monitor& monitor
     case SyntheticKind::Vessel: return draw_vessel(size, rng, monitor);
   }
   throw std::logic_error("draw: unknown kind");
-}
-
-// Branch by branch, so that a branch's own next point always has a lower index than the children that leave it.
-Skeleton skeleton_of(Size size, const std::vector<AnnotatedBranch>& branches) {
-  Skeleton skeleton(size);
-  std::vector<int> first(branches.size());
-  for (std::size_t b = 0; b < branches.size(); ++b) {
-    const AnnotatedBranch& branch = branches[b];
-    Node node;
-    node.parent = branch.parent ? first[branch.parent->branch] + branch.parent->point : kNone;
-    node.order = branch.parent ? skeleton[node.parent].order + 1 : 0;
-    first[b] = skeleton.count();
-    for (std::size_t i = 0; i < branch.points.size(); ++i) {
-      node.position = Vec3(branch.points[i].x(), branch.points[i].y(), 0.0);
-      node.radius = branch.radii[i];
-      node.parent = skeleton.append(node);
-    }
-  }
-  return skeleton;
 }
 
 }  // namespace
@@ -77,7 +58,7 @@ SyntheticExemplar make_synthetic(SyntheticKind kind, Size size, const Rng& rng, 
   out.photo.color = std::move(scene.color);
   out.photo.name = "builtin:" + name;
   out.skeleton = skeleton_of(size, scene.branches);
-  out.branch_mask = inside_mask(branch_field(size, scene.branches, 1.0));
+  out.branch_mask = draw_branch_mask(out.skeleton, size);
   out.light = scene.light.normalized();
   for (AnnotatedBranch& branch : scene.branches) branch.polarity = scene.polarity;
   out.annotation.photo_file = out.photo.name;

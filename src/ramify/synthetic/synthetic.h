@@ -25,7 +25,7 @@ struct SyntheticExemplar {
   Photo photo;              // 8-bit values, sRGB; name "builtin:KIND"
   Annotation annotation;    // every branch, with radii; polarity set; regions where the kind has some
   Skeleton skeleton;        // the same branches
-  Mask branch_mask;         // 255 inside the branches, exactly
+  Mask branch_mask;         // exact share of every pixel inside the branches, 0 … 255 (skeleton/draw.h)
   Vec3 light = {0, 0, 1};   // unit vector towards the light, x right, y down, z towards the camera
 };
 

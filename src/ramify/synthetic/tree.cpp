@@ -11,6 +11,11 @@ namespace {
 
 constexpr double kStep = 2.0;       // px between points
 constexpr int kTries = 10;          // places tried for one child
+constexpr double kStraight = 0.5;   // chord to way of a branch, at least, on stretches of several widths
+constexpr double kSlender = 0.03;  // radius of a child to its length, at most
+constexpr double kElders = 0.5;    // how readily new children grow on older orders than the last
+constexpr double kPoint = 10.0;    // a free end comes to its point within so many radii
+constexpr double kHub = 120.0;      // px from its start on which a root may be near the others of a hub
 constexpr double kThinner = 0.95;   // most a child's radius is of its parent's at the furcation
 constexpr double kLeaving = 0.35;   // a child must be this far from its parent, as a share of the way it has gone
 
@@ -54,6 +59,11 @@ class Occupied {
   std::vector<std::vector<Disc>> buckets_;
 };
 
+struct Parent {
+  int branch;
+  double weight;  // its share of the children
+};
+
 struct Start {
   Vec2 at;
   double heading = 0.0;
@@ -71,9 +81,9 @@ std::vector<double> kinks(const Course& course, int count, Rng rng) {
   double left = 0.0, angle = 0.0;
   for (double& value : offset) {
     if (left <= 0.0) {
-      left = course.kink_length * rng.uniform(0.35, 1.65);
-      // Successive turns mostly go opposite ways: a zigzag, not a random walk.
-      angle = course.kink_angle * (0.7 * rng.normal() - 0.5 * (angle > 0 ? 1.0 : -1.0));
+      left = course.kink_length * std::exp(rng.uniform(-1.3, 0.8));
+      // Successive turns rather go opposite ways: a zigzag, not a random walk.
+      angle = course.kink_angle * (0.9 * rng.normal() - 0.25 * (angle > 0 ? 1.0 : -1.0));
     }
     value = angle;
     left -= kStep;
@@ -86,18 +96,26 @@ class TreeDrawer {
   explicit TreeDrawer(const TreePlan& plan) : plan_(plan), occupied_(plan.size) {}
 
   std::vector<AnnotatedBranch> draw(const Rng& rng, const Monitor& monitor) {
-    std::vector<int> previous;
+    std::vector<int> previous, elders;
     for (std::size_t i = 0; i < plan_.roots.size(); ++i) {
       const RootPlan& root = plan_.roots[i];
       const Start start{root.start, root.heading, root.radius, root.length, root.tip_share, kNone, kNone};
-      if (grow(start, root.course, 8.0 * root.radius, rng.child("root", i))) previous.push_back(last());
+      for (int attempt = 0; attempt < kTries; ++attempt) {
+        const double shortest = attempt + 1 < kTries ? std::max(root.shortest, 8.0 * root.radius) : 8.0 * root.radius;
+        if (!grow(start, root.course, shortest, rng.child("root", i * kTries + attempt))) continue;
+        previous.push_back(last());
+        break;
+      }
     }
     for (std::size_t level = 0; level < plan_.levels.size(); ++level) {
       monitor.report(static_cast<double>(level) / static_cast<double>(plan_.levels.size()));
-      std::vector<int> children = draw_level(plan_.levels[level], previous, rng.child("level", level));
-      // Thin side branches may grow on the older branches as well.
-      children.insert(children.end(), previous.begin(), previous.end());
-      previous = std::move(children);
+      const LevelPlan& next = plan_.levels[level];
+      std::vector<Parent> parents;
+      for (int branch : previous) parents.push_back({branch, length_of(branch)});
+      if (next.on_elders)
+        for (int branch : elders) parents.push_back({branch, kElders * length_of(branch)});
+      elders.insert(elders.end(), previous.begin(), previous.end());
+      previous = draw_level(next, parents, rng.child("level", level));
     }
     return std::move(branches_);
   }
@@ -108,13 +126,13 @@ class TreeDrawer {
 
   // Children of the branches in `parents`; returns those that were made. Along each parent they are made in order, so
   // that Murray's loss of radius reaches those that come later.
-  std::vector<int> draw_level(const LevelPlan& level, const std::vector<int>& parents, const Rng& rng) {
+  std::vector<int> draw_level(const LevelPlan& level, const std::vector<Parent>& parents, const Rng& rng) {
     double total = 0.0;
-    for (int parent : parents) total += length_of(parent);
+    for (const Parent& parent : parents) total += parent.weight;
     std::vector<int> made;
     double owed = 0.0;
-    for (int parent : parents) {
-      owed += level.count * length_of(parent) / total;
+    for (const auto& [parent, weight] : parents) {
+      owed += level.count * weight / total;
       const int slots = static_cast<int>(std::floor(owed + 0.5));
       owed -= slots;
       double side = rng.child("side", parent).uniform() < 0.5 ? -1.0 : 1.0;
@@ -140,11 +158,14 @@ class TreeDrawer {
       start.heading = heading + (attempt % 3 == 2 ? -side : side) * rng.uniform(level.angle_low, level.angle_high);
       start.radius = std::max(plan_.thinnest, from.radii[at] * rng.uniform(level.ratio_low, level.ratio_high));
       start.length = std::max(level.shortest, length_of(parent) * rng.uniform(level.length_low, level.length_high));
+      start.radius = std::max(plan_.thinnest, std::min(start.radius, kSlender * start.length));
       start.tip_share = level.tip_share;
       start.parent = parent;
       start.parent_point = at;
       if (start.radius > kThinner * from.radii[at]) continue;
-      if (!grow(start, level.course, level.shortest, rng.child("course", attempt))) continue;
+      // What others cut short is a stub: at first only long ones are taken.
+      const double least = (attempt < kTries / 2 ? 0.6 : 0.35) * start.length;
+      if (!grow(start, level.course, std::max({level.shortest, 7.0 * start.radius, least}), rng.child("course", attempt))) continue;
       keep_murray(parent, at, start.radius);
       std::vector<double>& floor = floors_[parent];
       for (int i = 0; i <= at; ++i) floor[i] = std::max(floor[i], branches_.back().radii.front());
@@ -157,7 +178,7 @@ class TreeDrawer {
   // stays thicker than the children it already has.
   void keep_murray(int parent, int at, double child_radius) {
     std::vector<double>& radii = branches_[parent].radii;
-    const double loss = 1.0 - std::cbrt(1.0 - std::pow(std::min(0.9, child_radius / radii[at]), 3));
+    const double loss = plan_.murray * (1.0 - std::cbrt(1.0 - std::pow(std::min(0.9, child_radius / radii[at]), 3)));
     const double ease = 4.0 * radii[at] / kStep;
     for (int i = at; i < static_cast<int>(radii.size()); ++i)
       radii[i] = std::max(floors_[parent][i], radii[i] * (1.0 - loss * std::min(1.0, (i - at) / ease)));
@@ -172,7 +193,8 @@ class TreeDrawer {
     const double reach = radius + plan_.clearance;
     return occupied_.any(p, reach, [&](const Disc& disc) {
       double needed = disc.radius + reach;
-      if (disc.branch == parent) needed = std::min(needed, kLeaving * gone);
+      const bool together = plan_.hub && parent == kNone && disc.along < kHub;
+      if (disc.branch == parent || together) needed = std::min(needed, kLeaving * gone);
       return (disc.at - p).squaredNorm() < needed * needed;
     });
   }
@@ -181,7 +203,7 @@ class TreeDrawer {
   bool curls(const std::vector<Vec2>& path, const Vec2& p, double radius) const {
     const int here = static_cast<int>(path.size());
     for (int i = 0; i < here; i += 2) {
-      const double needed = std::min(2.0 * radius + plan_.clearance, kLeaving * kStep * (here - i));
+      const double needed = std::min(4.0 * radius + plan_.clearance, kStraight * kStep * (here - i));
       if ((path[i] - p).squaredNorm() < needed * needed) return true;
     }
     return false;
@@ -229,7 +251,8 @@ class TreeDrawer {
       const double taper = start.tip_share + (1.0 - start.tip_share) * std::pow(1.0 - end * gone / length, 0.7);
       const double noise = plan_.radius_noise * (0.7 * swell.at(gone) + 0.5 * ragged.at(gone));
       branch.points.push_back(path[i]);
-      const double radius = start.radius * taper * std::exp(noise);
+      const double point = leaves ? 1.0 : std::sqrt(std::min(1.0, (length - gone + 1.0) / (kPoint * start.radius)));
+      const double radius = start.radius * taper * point * std::exp(noise);
       branch.radii.push_back(std::clamp(radius, plan_.thinnest, std::max(plan_.thinnest, most)));
     }
     if (start.parent != kNone) branch.parent = BranchPoint{start.parent, start.parent_point};

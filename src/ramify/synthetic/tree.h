@@ -15,7 +15,7 @@ namespace ramify {
 
 // How a branch winds. All angles are standard deviations around its base heading.
 struct Course {
-  double kink_length = 0.0;   // px, mean length of straight pieces between sudden turns; 0 = no kinks
+  double kink_length = 0.0;   // px, typical length of straight pieces between sudden turns; 0 = no kinks
   double kink_angle = 0.0;    // rad
   double bend_length = 200.0; // px, wavelength of the smooth bends
   double bend_angle = 0.2;    // rad
@@ -30,6 +30,7 @@ struct RootPlan {
   double heading = 0.0;       // rad
   double radius = 4.0;        // px at the start
   double length = 1e9;        // px at most
+  double shortest = 0.0;      // px; other courses are tried when the first ends earlier
   double tip_share = 0.1;     // radius at a free end, as a share of the start's
   Course course;
 };
@@ -41,9 +42,10 @@ struct LevelPlan {
   double length_low = 0.3, length_high = 0.8;   // share of the parent's length
   double ratio_low = 0.3, ratio_high = 0.7;     // radius to the parent's radius there
   double tip_share = 0.3;
-  double shortest = 20.0;                       // px; what collisions cut shorter is tried elsewhere
+  double shortest = 20.0;                       // px (and 7 radii); what collisions cut shorter is tried elsewhere
   double alternate = 0.6;                       // chance that a child leaves on the other side than the one before
   double first = 0.06, last = 0.95;             // where on the parent children may start, share of its length
+  bool on_elders = true;                        // also on the orders before the last
   double irregular = 0.9;                       // how far from even spacing, 0 … 1
   Course course;
 };
@@ -54,6 +56,8 @@ struct TreePlan {
   std::vector<LevelPlan> levels;      // order 1, 2, …
   double clearance = 6.0;             // px between the rims of two branches
   double thinnest = 0.8;              // px, no radius is smaller
+  double murray = 1.0;                // share of Murray's loss that reaches the parent, 0 … 1
+  bool hub = false;                   // the roots meet in one place: near their starts they may be close
   double radius_noise = 0.08;         // relative s.d. of the radius along a branch, correlated over about 2 r … 10 r
   std::function<bool(const Vec2&)> allowed;  // a branch ends in a tip where it would leave this; empty = everywhere
   std::function<bool(const Vec2&)> seen;     // a branch that leaves this is cut, as by the frame; empty = everywhere

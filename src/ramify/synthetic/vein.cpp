@@ -26,7 +26,7 @@ struct Leaf {
     if (t < -0.005 || t > 1.0) return -20.0;
     const double across = std::fabs((p - axis(t)).dot(side));
     const double u = std::max(0.0, t + 0.005);
-    double half = width * std::pow(u, 0.52) * std::pow(1.0 - t, 0.78) * 2.05;
+    double half = width * std::pow(u, 0.62) * std::pow(1.0 - t, 0.78) * 2.6;
     if (teeth) half *= 1.0 - 0.075 * (1.0 - std::fmod(u * tooth, 1.0));
     return half - across;
   }
@@ -47,32 +47,40 @@ Leaf leaf_of(Size size, Rng rng) {
   return leaf;
 }
 
-TreePlan vein_plan(Size size, const Leaf& leaf, Rng rng) {
+TreePlan vein_plan(Size size, const Leaf& leaf) {
   const double s = scale_of(size);
   TreePlan plan;
   plan.size = size;
-  plan.clearance = 5.0 * s;
+  plan.clearance = 2.5 * s;
   plan.thinnest = 0.8;
   plan.radius_noise = 0.04;
   plan.allowed = [leaf, s](const Vec2& p) {
     return (p - leaf.base).dot(leaf.along) < 0.0 || leaf.inside(p, true) > 4.0 * s;
   };
   const double axis = angle_of(leaf.along), bend = std::atan(4.0 * leaf.bow / leaf.length);
-  Course midrib{0.0, 0.0, 300.0 * s, 0.015, 40.0 * s, 0.012, 0.0, axis};
-  midrib.homing = std::fabs(bend) > 1e-3 ? 2.0 / leaf.length : 0.0;
-  midrib.home = axis - bend * 1.3;
+  const Course midrib{.bend_length = 300.0 * s, .bend_angle = 0.015, .ripple_length = 40.0 * s, .ripple_angle = 0.012,
+                      .homing = std::fabs(bend) > 1e-3 ? 2.0 / leaf.length : 0.0, .home = axis - 1.3 * bend};
   // The petiole enters through the frame.
   const Vec2 back = direction_of(axis + bend);
   double petiole = 0.0;
   while (petiole < 2.0 * size.width && (leaf.base - petiole * back).x() > -10.0 * s &&
          std::fabs((leaf.base - petiole * back).y() - 0.5 * size.height) < 0.5 * size.height + 10.0 * s) petiole += 1.0;
-  plan.roots.push_back({leaf.base - petiole * back, axis + bend, 6.2 * s, petiole + 0.99 * leaf.length, 0.13, midrib});
+  plan.roots.push_back({.start = leaf.base - petiole * back, .heading = axis + bend, .radius = 6.2 * s,
+                        .length = petiole + 0.99 * leaf.length, .tip_share = 0.13, .course = midrib});
   const double first = (petiole + 0.015 * leaf.length) / (petiole + leaf.length);
-  const auto curved = [&](double homing) { return Course{0.0, 0.0, 120.0 * s, 0.08, 26.0 * s, 0.05, homing / s, axis}; };
-  plan.levels.push_back({24, 0.72, 0.88, 1.0, 1.0, 0.36, 0.46, 0.35, 30.0 * s, 1.0, first, 0.95, 0.25, curved(0.0022)});
-  plan.levels.push_back({34, 0.7, 1.15, 0.2, 0.5, 0.5, 0.66, 0.6, 16.0 * s, 0.75, 0.12, 0.92, 0.7, curved(0.0)});
-  plan.levels.push_back({20, 0.7, 1.2, 0.1, 0.4, 0.6, 0.8, 0.8, 12.0 * s, 0.6, 0.15, 0.9, 0.9, curved(0.0)});
-  (void)rng;
+  const auto curved = [&](double homing) {
+    return Course{.bend_length = 120.0 * s, .bend_angle = 0.08, .ripple_length = 26.0 * s, .ripple_angle = 0.05,
+                  .homing = homing / s, .home = axis};
+  };
+  plan.levels.push_back({.count = 26, .angle_low = 0.75, .angle_high = 0.88, .length_low = 1.0, .length_high = 1.0,
+                         .ratio_low = 0.36, .ratio_high = 0.46, .tip_share = 0.3, .shortest = 30.0 * s,
+                         .alternate = 1.0, .first = first, .last = 0.96, .irregular = 0.2, .course = curved(0.0013)});
+  plan.levels.push_back({.count = 42, .angle_low = 0.95, .angle_high = 1.35, .length_low = 0.5, .length_high = 0.9,
+                         .ratio_low = 0.30, .ratio_high = 0.42, .tip_share = 0.8, .shortest = 10.0 * s,
+                         .alternate = 0.5, .first = 0.08, .last = 0.85, .on_elders = false, .course = curved(0.0)});
+  plan.levels.push_back({.count = 16, .angle_low = 0.8, .angle_high = 1.3, .length_low = 0.3, .length_high = 0.9,
+                         .ratio_low = 0.8, .ratio_high = 0.95, .tip_share = 0.9, .shortest = 6.0 * s,
+                         .alternate = 0.5, .first = 0.2, .last = 0.85, .on_elders = false, .course = curved(0.0)});
   return plan;
 }
 
@@ -83,9 +91,9 @@ Scene draw_vein(Size size, const Rng& rng, const Monitor& monitor) {
   const Leaf leaf = leaf_of(size, rng.child("leaf"));
   Scene scene;
   scene.polarity = Polarity::Bright;
-  scene.branches = draw_tree(vein_plan(size, leaf, rng.child("plan")), rng.child("tree"), monitor);
+  scene.branches = draw_tree(vein_plan(size, leaf), rng.child("tree"), monitor);
   monitor.report(0.3);
-  const Image<BranchSample> field = branch_field(size, scene.branches, 16.0 * s);
+  const Image<BranchSample> field = branch_field(skeleton_of(size, scene.branches), 30.0 * s);
   const Image<CellSample> wide = cells(size, 15.0 * s, 0.95, rng.child("wide")), fine = cells(size, 6.0 * s, 0.95, rng.child("fine"));
   const ScalarImage tone = power_noise(size, {300.0 * s, 12.0 * s, 2.8}, rng.child("tone"));
   const ScalarImage pulp = power_noise(size, {6.0, 2.0, 1.6}, rng.child("pulp"));
@@ -95,8 +103,8 @@ Scene draw_vein(Size size, const Rng& rng, const Monitor& monitor) {
     const float inside = static_cast<float>(leaf.inside(Vec2(x, y), true)) + 0.8f * edge(x, y);
     const float blade = coverage(-inside, 0.7f);
     const CellSample &a = wide(x, y), &b = fine(x, y);
-    Rgb color = mix(Rgb{0.235f, 0.430f, 0.085f}, Rgb{0.365f, 0.565f, 0.130f}, std::clamp(0.5f + 0.25f * tone(x, y), 0.0f, 1.0f));
-    const float cell = ((a.id >> 8 & 255u) / 255.0f - 0.5f) * 0.09f + ((b.id >> 8 & 255u) / 255.0f - 0.5f) * 0.10f;
+    Rgb color = mix(Rgb{0.225f, 0.385f, 0.085f}, Rgb{0.385f, 0.560f, 0.150f}, std::clamp(0.5f + 0.28f * tone(x, y), 0.0f, 1.0f));
+    const float cell = ((a.id >> 8 & 255u) / 255.0f - 0.5f) * 0.12f + ((b.id >> 8 & 255u) / 255.0f - 0.5f) * 0.16f;
     color = (1.0f + cell + 0.045f * pulp(x, y)) * color;
     const float net = 0.50f * std::exp(-0.5f * std::pow(a.border / 1.0f, 2.0f)) + 0.30f * std::exp(-0.5f * std::pow(b.border / 0.75f, 2.0f));
     color = mix(color, Rgb{0.540f, 0.720f, 0.270f}, std::min(1.0f, net));
@@ -105,7 +113,8 @@ Scene draw_vein(Size size, const Rng& rng, const Monitor& monitor) {
     if (at.branch != kNone) {
       const float thick = smooth_step(0.8f, 5.0f, at.radius / static_cast<float>(s));
       const float flank = std::exp(-0.5f * std::pow((at.distance - 1.5f) / (1.0f + 0.25f * at.radius), 2.0f));
-      out = (1.0f - 0.16f * flank * blade) * out;
+      const float pillow = smooth_step(2.0f, static_cast<float>(24.0 * s), at.distance) - 0.5f;
+      out = (1.0f + (0.14f * pillow - 0.16f * flank) * blade) * out;
       const float relief = at.across / std::max(1.0f, at.radius);
       const Rgb vein = (1.0f + 0.08f * thick * relief + 0.03f * pulp(x, y)) * mix(Rgb{0.610f, 0.770f, 0.330f}, Rgb{0.760f, 0.780f, 0.400f}, thick);
       out = mix(out, vein, coverage(at.distance, 0.5f));

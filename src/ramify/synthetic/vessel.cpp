@@ -38,6 +38,7 @@ TreePlan vessel_plan(Size size, const Eye& eye, Rng rng) {
   plan.clearance = 7.0 * s;
   plan.thinnest = 0.8;
   plan.radius_noise = 0.05;
+  plan.hub = true;
   plan.allowed = [eye, s](const Vec2& p) { return (p - eye.macula).norm() > 34.0 * s; };
   plan.seen = [eye](const Vec2& p) { return (p - eye.centre).norm() < eye.field; };
   // Four arcades (two each way bend around the macula), two nasal vessels, two thin ones towards the macula.
@@ -48,14 +49,23 @@ TreePlan vessel_plan(Size size, const Eye& eye, Rng rng) {
   for (const Main& main : mains) {
     const auto turned = [&](double angle) { return eye.side > 0 ? angle : kPi - angle; };
     const double angle = turned(main.angle + rng.uniform(-0.12, 0.12));
-    const Course course{0.0, 0.0, 150.0 * s, 0.17, 36.0 * s, 0.09, main.homing / s,
-                        turned(main.home + rng.uniform(-0.15, 0.15))};
-    plan.roots.push_back({eye.disc + 13.0 * s * direction_of(angle), angle, main.radius * s, 1e9, 0.3, course});
+    const Course course{.bend_length = 150.0 * s, .bend_angle = 0.17, .ripple_length = 36.0 * s, .ripple_angle = 0.09,
+                        .homing = main.homing / s, .home = turned(main.home + rng.uniform(-0.15, 0.15))};
+    plan.roots.push_back({.start = eye.disc + 7.0 * s * direction_of(angle), .heading = angle, .radius = main.radius * s,
+                          .tip_share = 0.3, .course = course});
   }
-  const auto winding = [s](double bend) { return Course{0.0, 0.0, 90.0 * s, bend, 22.0 * s, 0.13, 0.0, 0.0}; };
-  plan.levels.push_back({16, 0.5, 1.0, 0.3, 0.7, 0.35, 0.65, 0.4, 60.0 * s, 0.65, 0.12, 0.95, 0.9, winding(0.3)});
-  plan.levels.push_back({26, 0.5, 1.15, 0.25, 0.7, 0.4, 0.65, 0.5, 34.0 * s, 0.6, 0.12, 0.95, 0.9, winding(0.35)});
-  plan.levels.push_back({20, 0.5, 1.2, 0.25, 0.7, 0.5, 0.75, 0.7, 22.0 * s, 0.6, 0.15, 0.95, 0.9, winding(0.4)});
+  const auto winding = [s](double bend) {
+    return Course{.bend_length = 90.0 * s, .bend_angle = bend, .ripple_length = 22.0 * s, .ripple_angle = 0.13};
+  };
+  plan.levels.push_back({.count = 16, .angle_low = 0.5, .angle_high = 1.0, .length_low = 0.3, .length_high = 0.7,
+                         .ratio_low = 0.35, .ratio_high = 0.65, .tip_share = 0.4, .shortest = 60.0 * s,
+                         .alternate = 0.65, .first = 0.12, .last = 0.95, .course = winding(0.3)});
+  plan.levels.push_back({.count = 26, .angle_low = 0.5, .angle_high = 1.15, .length_low = 0.25, .length_high = 0.7,
+                         .ratio_low = 0.4, .ratio_high = 0.65, .tip_share = 0.5, .shortest = 34.0 * s,
+                         .alternate = 0.6, .first = 0.12, .last = 0.95, .course = winding(0.35)});
+  plan.levels.push_back({.count = 20, .angle_low = 0.5, .angle_high = 1.2, .length_low = 0.25, .length_high = 0.7,
+                         .ratio_low = 0.5, .ratio_high = 0.75, .tip_share = 0.7, .shortest = 22.0 * s,
+                         .alternate = 0.6, .first = 0.15, .last = 0.95, .course = winding(0.4)});
   return plan;
 }
 
@@ -106,8 +116,12 @@ Scene draw_vessel(Size size, const Rng& rng, const Monitor& monitor) {
   scene.polarity = Polarity::Dark;
   scene.branches = draw_tree(vessel_plan(size, eye, rng.child("plan")), rng.child("tree"), monitor);
   monitor.report(0.4);
-  const Image<BranchSample> field = branch_field(size, scene.branches, 10.0 * s);
+  const Image<BranchSample> field = branch_field(skeleton_of(size, scene.branches), 10.0 * s);
   const ColorImage tissue = fundus(size, eye, rng.child("tissue"));
+  // Every other vessel of the disc is an artery: brighter blood, stronger reflex.
+  std::vector<bool> arterial(scene.branches.size());
+  for (std::size_t b = 0; b < scene.branches.size(); ++b)
+    arterial[b] = scene.branches[b].parent ? arterial[scene.branches[b].parent->branch] : b % 2 == 0;
   const ScalarImage flow = power_noise(size, {70.0 * s, 8.0 * s, 2.4}, rng.child("flow"));
   scene.color = painted(size, [&](int x, int y) {
     const float away = static_cast<float>((Vec2(x, y) - eye.centre).norm());
@@ -120,11 +134,13 @@ Scene draw_vessel(Size size, const Rng& rng, const Monitor& monitor) {
       const float thick = smooth_step(0.8f, 4.0f, at.radius / static_cast<float>(s));
       const float round = std::sqrt(std::max(0.0f, 1.0f - std::pow(std::min(1.0f, std::fabs(at.across) / at.radius), 2.0f)));
       const float strength = (0.62f + 0.38f * thick) * (1.0f + 0.06f * flow(x, y));
-      const Rgb passed{1.0f - 0.26f * strength, 1.0f - 0.56f * strength, 1.0f - 0.42f * strength};
+      const float artery = arterial[at.branch] ? 1.0f : 0.0f;
+      const Rgb passed{1.0f - (0.28f - 0.09f * artery) * strength, 1.0f - (0.57f - 0.06f * artery) * strength,
+                       1.0f - 0.42f * strength};
       const float inside = coverage(at.distance, 0.55f) * (0.82f + 0.18f * round);
       color = mix(color, color * passed, inside);
       const float reflex = std::exp(-0.5f * std::pow(at.across / (0.22f * at.radius), 2.0f));
-      color = color + (0.085f * reflex * smooth_step(2.2f, 4.0f, at.radius)) * Rgb{1.0f, 0.75f, 0.6f};
+      color = color + ((0.06f + 0.07f * artery) * reflex * smooth_step(2.2f, 4.0f, at.radius)) * Rgb{1.0f, 0.75f, 0.6f};
     }
     return mix(Rgb{0.012f, 0.008f, 0.008f}, light * color, seen);
   });
