@@ -46,7 +46,8 @@ const cmsCIExyYTRIPLE kSrgb{{0.64, 0.33, 1}, {0.30, 0.60, 1}, {0.15, 0.06, 1}};
 std::string profile_chunk(const std::string& profile) {
   std::string packed(compressBound(profile.size()), '\0');
   uLongf size = packed.size();
-  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(profile.data()), profile.size());
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(profile.data()),
+           profile.size());
   return png_chunk("iCCP", std::string("test\0\0", 6) + packed.substr(0, size));
 }
 

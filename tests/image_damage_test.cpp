@@ -26,7 +26,8 @@ namespace {
 ColorImage smooth_picture(int width, int height) {
   ColorImage image(width, height);
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) image(x, y) = {x / float(width), y / float(height), 0.5f + 0.3f * std::sin(0.2f * x * y)};
+    for (int x = 0; x < width; ++x)
+      image(x, y) = {x / float(width), y / float(height), 0.5f + 0.3f * std::sin(0.2f * x * y)};
   }
   return image;
 }
@@ -106,9 +107,11 @@ TEST_CASE("cut files of every format are refused unless allowed") {
       if (!refused(whole.substr(0, whole.size() * percent / 100))) FAIL(name << " cut to " << percent << " % was read");
     }
     for (int missing = 1; missing <= 3; ++missing) {
-      if (!refused(whole.substr(0, whole.size() - missing))) FAIL(name << " without its last " << missing << " bytes was read");
+      if (!refused(whole.substr(0, whole.size() - missing)))
+        FAIL(name << " without its last " << missing << " bytes was read");
     }
-    for (int percent = 0; percent < 100; percent += 3) refused(whole.substr(0, whole.size() * percent / 100), {.allow_truncated = true});
+    for (int percent = 0; percent < 100; percent += 3)
+      refused(whole.substr(0, whole.size() * percent / 100), {.allow_truncated = true});
     if (std::string(name) == "a.webp" || std::string(name) == "a.tif") continue;  // all or nothing in these
     const LoadedImage part = decode_image(whole.substr(0, whole.size() * 6 / 10), name, {.allow_truncated = true});
     const ColorImage full = decode_image(whole, name).color;
@@ -123,7 +126,8 @@ TEST_CASE("flipping any bit gives a picture or an error that names the file") {
   const ColorImage image = level_noise(5, 4, 8);
   for (const char* name : {"a.png", "a.tif", "a.exr", "a.webp", "a.jpg"}) {
     CAPTURE(name);
-    const std::string whole = encode_image(name, image, nullptr, {.bits = fitting_bits(name, 8), .recipe = std::string(name) == "a.jpg" ? "" : "{}"});
+    const std::string whole = encode_image(
+        name, image, nullptr, {.bits = fitting_bits(name, 8), .recipe = std::string(name) == "a.jpg" ? "" : "{}"});
     int errors = 0;
     for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
       std::string flipped = whole;
@@ -171,26 +175,33 @@ TEST_CASE("compressed texts and profiles cannot blow up") {
 #endif
   // An Exif block whose directory points at itself, beyond itself, or claims 65535 fields.
   for (const std::string& exif : {std::string("II*\0\4\0\0\0", 8), std::string("II*\0\xff\xff\xff\xff\0\0", 10),
-                                 std::string("MM\0*\0\0\0\x08\xff\xff", 10) + std::string(50, '\1')}) {
+                                  std::string("MM\0*\0\0\0\x08\xff\xff", 10) + std::string(50, '\1')}) {
     CHECK(decode_image(black_png(3, 3, 8, png_chunk("eXIf", exif)), "a.png").color.size() == Size{3, 3});
   }
 }
 
 TEST_CASE("sizes that overflow or are nothing are refused") {
-  for (const auto& [w, h] : {std::pair{0x80000000u, 0x80000000u}, {0xFFFFFFFFu, 1u}, {0x7FFFFFFFu, 0x7FFFFFFFu}, {0u, 0u}, {5u, 0u}, {0u, 5u}}) {
+  for (const auto& [w, h] : {std::pair{0x80000000u, 0x80000000u},
+                             {0xFFFFFFFFu, 1u},
+                             {0x7FFFFFFFu, 0x7FFFFFFFu},
+                             {0u, 0u},
+                             {5u, 0u},
+                             {0u, 5u}}) {
     CHECK(refused(png_header(w, h, 8, 2) + png_chunk("IDAT", deflated_zeros(10)) + png_chunk("IEND", "")));
   }
   const std::string exr = encode_image("a.exr", level_noise(4, 4, 8), nullptr, {.bits = 16});
-  for (const std::string& window : {little(0, 8) + little(0x7FFFFFFF, 4) + little(0x7FFFFFFF, 4), little(5, 8) + little(0, 8),
-                                    little(0x80000000, 4) + little(0x80000000, 4) + little(0x7FFFFFFF, 4) + little(0x7FFFFFFF, 4),
-                                    little(0, 8) + little(15999, 4) + little(15999, 4)}) {
+  for (const std::string& window :
+       {little(0, 8) + little(0x7FFFFFFF, 4) + little(0x7FFFFFFF, 4), little(5, 8) + little(0, 8),
+        little(0x80000000, 4) + little(0x80000000, 4) + little(0x7FFFFFFF, 4) + little(0x7FFFFFFF, 4),
+        little(0, 8) + little(15999, 4) + little(15999, 4)}) {
     CHECK(refused(with_attribute(exr, "dataWindow", window)));
   }
   std::string jpeg = encode_image("a.jpg", level_noise(4, 4, 8), nullptr, {});
   const std::size_t frame = jpeg.find("\xff\xc0");
   REQUIRE(frame != std::string::npos);
   CHECK(refused(jpeg.replace(frame + 5, 4, std::string(4, '\0'))));
-  CHECK_THROWS_AS(decode_image(jpeg.replace(frame + 5, 4, std::string(4, '\xff')), "a.jpg", {.pixels = 256e6}), LimitError);
+  CHECK_THROWS_AS(decode_image(jpeg.replace(frame + 5, 4, std::string(4, '\xff')), "a.jpg", {.pixels = 256e6}),
+                  LimitError);
 }
 
 TEST_CASE("tiff directories that circle or lie end with an error") {
@@ -199,8 +210,8 @@ TEST_CASE("tiff directories that circle or lie end with an error") {
   };
   const auto tiff = [&](unsigned strip, unsigned bytes, unsigned next) {
     const std::string fields = field(256, 3, 1, 4) + field(257, 3, 1, 4) + field(258, 3, 1, 8) + field(259, 3, 1, 1) +
-                               field(262, 3, 1, 1) + field(273, 4, 1, strip) + field(277, 3, 1, 1) + field(278, 3, 1, 4) +
-                               field(279, 4, 1, bytes);
+                               field(262, 3, 1, 1) + field(273, 4, 1, strip) + field(277, 3, 1, 1) +
+                               field(278, 3, 1, 4) + field(279, 4, 1, bytes);
     return std::string("II*\0", 4) + little(8, 4) + little(9, 2) + fields + little(next, 4) + std::string(16, '\x40');
   };
   const unsigned pixels = 8 + 2 + 9 * 12 + 4;
@@ -264,7 +275,8 @@ TEST_CASE("thin and large pictures work") {
     for (const char* name : {"a.png", "a.tif", "a.exr", "a.jpg"}) {
       CAPTURE(name, w, h);
       const ColorImage image(w, h, {1, 1, 1});
-      const ColorImage read = decode_image(encode_image(name, image, nullptr, {.bits = fitting_bits(name, 8)}), name).color;
+      const ColorImage read =
+          decode_image(encode_image(name, image, nullptr, {.bits = fitting_bits(name, 8)}), name).color;
       CHECK(read.size() == image.size());
       CHECK(read(w - 1, h - 1).g == Approx(1.0f).margin(1e-3));
     }

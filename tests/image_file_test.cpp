@@ -26,8 +26,9 @@ TEST_CASE("what is no regular file is refused at once") {
   address.sun_family = AF_UNIX;
   std::strncpy(address.sun_path, (folder / "socket.png").c_str(), sizeof address.sun_path - 1);
   REQUIRE(bind(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0);
-  for (const std::string& path : {folder.path(), folder / "pipe.png", folder / "socket.png", folder / "missing.png",
-                                  std::string("/dev/zero"), std::string(), folder / std::string(300, 'x'), folder / std::string(5000, 'y')}) {
+  for (const std::string& path :
+       {folder.path(), folder / "pipe.png", folder / "socket.png", folder / "missing.png", std::string("/dev/zero"),
+        std::string(), folder / std::string(300, 'x'), folder / std::string(5000, 'y')}) {
     CHECK_THROWS_AS(load_image(path), InputError);
   }
   close(descriptor);

@@ -35,7 +35,8 @@ ColorImage made_picture(const Case& made) {
   ColorImage image(12, 9);
   for (int y = 0; y < 9; ++y) {
     for (int x = 0; x < 12; ++x) {
-      for (int c = 0; c < 3; ++c) image(x, y)[c] = made_level(x, y, made.channels == 1 ? 0 : c) * made.scale + made.offset;
+      for (int c = 0; c < 3; ++c)
+        image(x, y)[c] = made_level(x, y, made.channels == 1 ? 0 : c) * made.scale + made.offset;
     }
   }
   return image;
@@ -52,10 +53,19 @@ TEST_CASE("kinds of pictures made by others are read to the right values") {
   const TempFolder folder;
   REQUIRE(run_python("make_pictures.py", folder.path()));
   const Case cases[] = {
-      {"lossless.webp", 3, 8}, {"lzw.tif", 3, 8},    {"rgb16.tif", 3, 16},     {"big_endian16.tif", 3, 16},
-      {"bigtiff.tif", 3, 8},   {"tiled.tif", 3, 8},  {"planar.tif", 3, 8},     {"alpha.tif", 3, 8},
-      {"alpha.webp", 3, 8},    {"grey_alpha.png", 1, 8}, {"float.tif", 3, 32, 3.0f, -1.0f},
-      {"float_grey.tif", 1, 32, 3.0f, -1.0f}, {"pages.tif", 3, 8, 1.0f, 0.0f, 1},
+      {"lossless.webp", 3, 8},
+      {"lzw.tif", 3, 8},
+      {"rgb16.tif", 3, 16},
+      {"big_endian16.tif", 3, 16},
+      {"bigtiff.tif", 3, 8},
+      {"tiled.tif", 3, 8},
+      {"planar.tif", 3, 8},
+      {"alpha.tif", 3, 8},
+      {"alpha.webp", 3, 8},
+      {"grey_alpha.png", 1, 8},
+      {"float.tif", 3, 32, 3.0f, -1.0f},
+      {"float_grey.tif", 1, 32, 3.0f, -1.0f},
+      {"pages.tif", 3, 8, 1.0f, 0.0f, 1},
   };
   for (const Case& made : cases) {
     CAPTURE(made.file);
@@ -141,9 +151,16 @@ TEST_CASE("every format gives back what was written with its recipe") {
     float tolerance;
   };
   const std::string recipe = "{\"a\": [1, 2], \"text\": \"é <&> \\n \\u0041\"}";
-  for (const Format& format : {Format{"a.png", 8, true, 0}, {"a.png", 16, true, 0}, {"a.tif", 8, true, 0}, {"a.tiff", 16, true, 0},
-                               {"a.tif", 32, true, 0}, {"a.exr", 16, false, 2e-3f}, {"a.exr", 32, false, 2e-6f},
-                               {"a.jpg", 8, false, 0.06f}, {"a.JPEG", 8, false, 0.06f}, {"a.webp", 8, true, 0}}) {
+  for (const Format& format : {Format{"a.png", 8, true, 0},
+                               {"a.png", 16, true, 0},
+                               {"a.tif", 8, true, 0},
+                               {"a.tiff", 16, true, 0},
+                               {"a.tif", 32, true, 0},
+                               {"a.exr", 16, false, 2e-3f},
+                               {"a.exr", 32, false, 2e-6f},
+                               {"a.jpg", 8, false, 0.06f},
+                               {"a.JPEG", 8, false, 0.06f},
+                               {"a.webp", 8, true, 0}}) {
     CAPTURE(format.name, format.bits);
     const ColorImage image = level_noise(17, 9, std::min(format.bits, 16));
     const Mask alpha = mask_noise(17, 9);
@@ -215,7 +232,8 @@ TEST_CASE("eight bits are rounded and dithered only on request") {
 TEST_CASE("names and depths a format cannot hold are refused before any work") {
   const TempFolder folder;
   const ColorImage image = level_noise(3, 3, 8);
-  for (const char* name : {"a", "a.gif", "a.png/", "png", "a.png.txt", ""}) CHECK_THROWS_AS(check_image_name(name), OptionError);
+  for (const char* name : {"a", "a.gif", "a.png/", "png", "a.png.txt", ""})
+    CHECK_THROWS_AS(check_image_name(name), OptionError);
   for (const char* name : {"a.png", "b.JPG", "/x/y.z/c.tiff", "d.exr", "e.webp"}) CHECK_NOTHROW(check_image_name(name));
   CHECK_THROWS_AS(save_image(folder / "a.jpg", image, {.bits = 16}), OptionError);
   CHECK_THROWS_AS(save_image(folder / "a.png", image, {.bits = 32}), OptionError);

@@ -63,7 +63,8 @@ class PhotosVariable {
 }  // namespace
 
 TEST_CASE("a recipe reads back as it was written and says the same words") {
-  for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0} / 2, ~std::uint64_t{0} / 2 + 1, ~std::uint64_t{0}}) {
+  for (const std::uint64_t seed :
+       {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0} / 2, ~std::uint64_t{0} / 2 + 1, ~std::uint64_t{0}}) {
     Recipe recipe = sample_recipe();
     recipe.seed = seed;
     const std::string text = recipe_text(recipe);
@@ -160,6 +161,7 @@ TEST_CASE("options become texts that read back") {
   int count = 3;
   double size = 0.1;
   bool loud = true;
-  const auto values = option_values({number("count", count, 0, 9, "", ""), number("size", size, 0.0, 1.0, "px", ""), flag("loud", loud, "")});
+  const auto values = option_values(
+      {number("count", count, 0, 9, "", ""), number("size", size, 0.0, 1.0, "px", ""), flag("loud", loud, "")});
   CHECK(values == std::map<std::string, std::string>{{"count", "3"}, {"size", "0.1"}, {"loud", "true"}});
 }

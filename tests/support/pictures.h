@@ -27,9 +27,13 @@ inline ramify::Mask mask_noise(int width, int height, std::uint64_t seed = 2) {
 }
 
 // The value that make_pictures.py gives to channel c at (x, y), 0..1.
-inline float made_level(int x, int y, int c) { return static_cast<float>((7 * x + 13 * y + 50 * c) % 256) / 255.0f; }
+inline float made_level(int x, int y, int c) {
+  return static_cast<float>((7 * x + 13 * y + 50 * c) % 256) / 255.0f;
+}
 
 // Runs a Python script of tests/support; true when it ends with 0.
 inline bool run_python(const std::string& script, const std::string& argument) {
-  return std::system((std::string(RAMIFY_PYTHON) + " '" RAMIFY_TEST_FOLDER "/support/" + script + "' '" + argument + "'").c_str()) == 0;
+  return std::system(
+             (std::string(RAMIFY_PYTHON) + " '" RAMIFY_TEST_FOLDER "/support/" + script + "' '" + argument + "'")
+                 .c_str()) == 0;
 }

@@ -50,7 +50,8 @@ inline std::string png_header(std::uint32_t width, std::uint32_t height, int bit
 // A black grey PNG with `extra` chunks behind the header.
 inline std::string black_png(std::uint32_t width, std::uint32_t height, int bits, const std::string& extra = "") {
   return png_header(width, height, bits, 0) + extra +
-         png_chunk("IDAT", deflated_zeros((std::size_t{width} * bits + 7) / 8 * height + height)) + png_chunk("IEND", "");
+         png_chunk("IDAT", deflated_zeros((std::size_t{width} * bits + 7) / 8 * height + height)) +
+         png_chunk("IEND", "");
 }
 
 // `png` with a chunk put behind its header.

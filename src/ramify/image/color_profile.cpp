@@ -24,8 +24,8 @@ ModelTraits traits_of(ColorModel model) {
   return {cmsSigCmykData, TYPE_CMYK_FLT};
 }
 
-// sRGB's primaries with linear light. Little CMS extends the sRGB curve below zero along a straight line; we encode with
-// our own curve, which mirrors it.
+// sRGB's primaries with linear light. Little CMS extends the sRGB curve below zero along a straight line; we encode
+// with our own curve, which mirrors it.
 cmsHPROFILE linear_srgb_profile() {
   const cmsCIExyY white{0.3127, 0.3290, 1.0};
   const cmsCIExyYTRIPLE primaries{{0.64, 0.33, 1.0}, {0.30, 0.60, 1.0}, {0.15, 0.06, 1.0}};

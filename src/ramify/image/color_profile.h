@@ -16,8 +16,8 @@ class ColorProfile {
   ~ColorProfile();
 
   bool usable() const { return transform_ != nullptr; }
-  // True when it changes no colour by more than a quarter of an 8-bit step, as the sRGB profiles in most photos do; such
-  // pictures keep their exact values.
+  // True when it changes no colour by more than a quarter of an 8-bit step, as the sRGB profiles in most photos do;
+  // such pictures keep their exact values.
   bool is_srgb() const { return is_srgb_; }
 
   // `from`: 1, 3 or 4 values 0..1 per pixel (CMYK: 1 = full ink). May be called from several threads.

@@ -26,7 +26,8 @@ class MemoryReader : public Imf::IStream {
  public:
   explicit MemoryReader(std::string_view bytes) : IStream("memory"), bytes_(bytes) {}
   bool read(char* to, int count) override {
-    if (count < 0 || static_cast<std::size_t>(count) > bytes_.size() - at_) throw std::runtime_error("unexpected end of file");
+    if (count < 0 || static_cast<std::size_t>(count) > bytes_.size() - at_)
+      throw std::runtime_error("unexpected end of file");
     std::memcpy(to, bytes_.data() + at_, count);
     at_ += count;
     return at_ < bytes_.size();
@@ -73,7 +74,8 @@ Imf::Slice slice_of(float* first, const Imath::Box2i& window, std::size_t stride
 
 std::string list_channels(const Imf::ChannelList& channels) {
   std::string names;
-  for (auto it = channels.begin(); it != channels.end(); ++it) names += (names.empty() ? "" : ", ") + std::string(it.name());
+  for (auto it = channels.begin(); it != channels.end(); ++it)
+    names += (names.empty() ? "" : ", ") + std::string(it.name());
   return printable(names);
 }
 
@@ -88,7 +90,8 @@ Imf::FrameBuffer bind_channels(const Imf::Header& header, Planes& planes, const 
     const Imf::Channel* found = channels.findChannel(channel);
     if (!found) return;
     if (found->xSampling != 1 || found->ySampling != 1) {
-      throw InputError(name, "stores its channel " + std::string(channel) + " at a lower resolution; convert it to plain RGB first");
+      throw InputError(
+          name, "stores its channel " + std::string(channel) + " at a lower resolution; convert it to plain RGB first");
     }
     buffer.insert(channel, slice_of(first, window, stride, width));
     ++bound;
@@ -124,7 +127,8 @@ void read_texts(const Imf::Header& header, LoadedImage& out) {
 }
 
 // Reads line by line, so that a cut file gives what it has.
-void read_lines(Imf::InputPart& part, const Imath::Box2i& window, bool allow_truncated, const std::string& name, LoadedImage& out) {
+void read_lines(Imf::InputPart& part, const Imath::Box2i& window, bool allow_truncated, const std::string& name,
+                LoadedImage& out) {
   for (int y = window.min.y; y <= window.max.y; ++y) {
     try {
       part.readPixels(y, y);
@@ -175,8 +179,10 @@ LoadedImage decode_exr(std::string_view bytes, bool allow_truncated, const std::
     const Imf::Header& header = file.header(0);
     const Imath::Box2i& window = header.dataWindow();
     LoadedImage out;
-    if (file.parts() > 1) out.warnings.push_back("it has " + std::to_string(file.parts()) + " parts; the first was used");
-    if (window != header.displayWindow()) out.warnings.push_back("it has a display window; the whole data window was used");
+    if (file.parts() > 1)
+      out.warnings.push_back("it has " + std::to_string(file.parts()) + " parts; the first was used");
+    if (window != header.displayWindow())
+      out.warnings.push_back("it has a display window; the whole data window was used");
     Planes planes;
     planes.color = ColorImage(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
     Imf::InputPart part(file, 0);
@@ -227,7 +233,8 @@ std::string encode_exr(const ColorImage& image, const Mask* alpha, int bits, con
     for (std::size_t i = 0; i < area; ++i) {
       halves[area * c + i] = Imath::half(std::clamp(first[stride * i], -65504.0f, 65504.0f));
     }
-    buffer.insert(name, Imf::Slice::Make(Imf::HALF, &halves[area * c], window, sizeof(Imath::half), sizeof(Imath::half) * image.width()));
+    buffer.insert(name, Imf::Slice::Make(Imf::HALF, &halves[area * c], window, sizeof(Imath::half),
+                                         sizeof(Imath::half) * image.width()));
   }
   MemoryWriter stream;
   {

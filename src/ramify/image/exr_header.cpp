@@ -9,7 +9,7 @@
 namespace ramify {
 namespace {
 
-constexpr std::size_t kFirstHeader = 8;         // behind the magic number and the version
+constexpr std::size_t kFirstHeader = 8;  // behind the magic number and the version
 constexpr std::uint32_t kDeepFlag = 0x800, kMultipartFlag = 0x1000;
 constexpr std::int64_t kLongestSide = 1 << 30;
 
@@ -20,11 +20,14 @@ struct Part {
   bool deep = false;
 };
 
-std::int64_t signed32(std::string_view bytes, std::size_t at) { return static_cast<std::int32_t>(little32(bytes, at)); }
+std::int64_t signed32(std::string_view bytes, std::size_t at) {
+  return static_cast<std::int32_t>(little32(bytes, at));
+}
 
 void read_attribute(std::string_view attribute, std::string_view value, Part& part) {
   if (attribute == "dataWindow" && value.size() == 16) {
-    part.x0 = signed32(value, 0), part.y0 = signed32(value, 4), part.x1 = signed32(value, 8), part.y1 = signed32(value, 12);
+    part.x0 = signed32(value, 0), part.y0 = signed32(value, 4), part.x1 = signed32(value, 8),
+    part.y1 = signed32(value, 12);
   } else if (attribute == "tiles" && value.size() == 9) {
     part.tile_width = little32(value, 0), part.tile_height = little32(value, 4);
   } else if (attribute == "type") {
@@ -57,21 +60,25 @@ void check_part(const Part& part, std::size_t file_bytes, const std::string& nam
   if (width <= 0 || height <= 0) {
     throw InputError(name, "has no pixels (" + std::to_string(width) + " x " + std::to_string(height) + ")");
   }
-  if (width > kLongestSide || height > kLongestSide) throw InputError(name, "is not a valid OpenEXR: its size is out of range");
+  if (width > kLongestSide || height > kLongestSide)
+    throw InputError(name, "is not a valid OpenEXR: its size is out of range");
   // The file starts with the place of every block, 8 bytes each; a block has at most 256 lines (DWAB).
   const bool tiled = part.tile_width > 0 && part.tile_height > 0;
-  const double blocks = tiled ? std::ceil(double(width) / part.tile_width) * std::ceil(double(height) / part.tile_height)
-                              : std::ceil(height / 256.0);
+  const double blocks = tiled
+                            ? std::ceil(double(width) / part.tile_width) * std::ceil(double(height) / part.tile_height)
+                            : std::ceil(height / 256.0);
   if (8.0 * blocks > static_cast<double>(file_bytes)) {
-    throw InputError(name, "is cut off or damaged: it claims " + std::to_string(width) + " x " + std::to_string(height) +
-                               " pixels but has only " + std::to_string(file_bytes) + " bytes");
+    throw InputError(name, "is cut off or damaged: it claims " + std::to_string(width) + " x " +
+                               std::to_string(height) + " pixels but has only " + std::to_string(file_bytes) +
+                               " bytes");
   }
 }
 
 }  // namespace
 
 Size read_exr_size(std::string_view bytes, const std::string& name) {
-  if (bytes.size() < kFirstHeader) throw InputError(name, "is cut off: the file ends before the OpenEXR header is complete");
+  if (bytes.size() < kFirstHeader)
+    throw InputError(name, "is cut off: the file ends before the OpenEXR header is complete");
   const std::uint32_t version = little32(bytes, 4);
   if (version & kDeepFlag) throw InputError(name, "is a deep OpenEXR picture; flatten it first");
   std::size_t at = kFirstHeader;

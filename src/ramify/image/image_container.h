@@ -36,11 +36,21 @@ ImageContainer read_webp_container(std::string_view bytes, const std::string& na
 int exif_orientation(std::string_view exif);
 
 // Big- and little-endian numbers; the caller has checked that they lie inside.
-inline std::uint32_t byte_at(std::string_view bytes, std::size_t at) { return static_cast<unsigned char>(bytes[at]); }
-inline std::uint32_t big16(std::string_view b, std::size_t at) { return (byte_at(b, at) << 8) | byte_at(b, at + 1); }
-inline std::uint32_t big32(std::string_view b, std::size_t at) { return (big16(b, at) << 16) | big16(b, at + 2); }
-inline std::uint32_t little16(std::string_view b, std::size_t at) { return (byte_at(b, at + 1) << 8) | byte_at(b, at); }
-inline std::uint32_t little32(std::string_view b, std::size_t at) { return (little16(b, at + 2) << 16) | little16(b, at); }
+inline std::uint32_t byte_at(std::string_view bytes, std::size_t at) {
+  return static_cast<unsigned char>(bytes[at]);
+}
+inline std::uint32_t big16(std::string_view b, std::size_t at) {
+  return (byte_at(b, at) << 8) | byte_at(b, at + 1);
+}
+inline std::uint32_t big32(std::string_view b, std::size_t at) {
+  return (big16(b, at) << 16) | big16(b, at + 2);
+}
+inline std::uint32_t little16(std::string_view b, std::size_t at) {
+  return (byte_at(b, at + 1) << 8) | byte_at(b, at);
+}
+inline std::uint32_t little32(std::string_view b, std::size_t at) {
+  return (little16(b, at + 2) << 16) | little16(b, at);
+}
 
 // Our own text inside pictures: the recipe under this name (texts["ramify-recipe"]).
 inline constexpr const char* kRecipeKey = "ramify-recipe";

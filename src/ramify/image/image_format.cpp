@@ -26,7 +26,10 @@ constexpr std::array kForeign{
     Magic{0, "PK\x03\x04"sv, "a ZIP archive (or an office document)"},
     Magic{0, "\x1f\x8b"sv, "a gzip archive"},
     Magic{0, "7z\xbc\xaf\x27\x1c"sv, "a 7-Zip archive"},
-    Magic{0, "\xfd" "7zXZ"sv, "an xz archive"},
+    Magic{0,
+          "\xfd"
+          "7zXZ"sv,
+          "an xz archive"},
     Magic{0, "8BPS"sv, "a Photoshop document"},
     Magic{0, "\xff\x0a"sv, "a JPEG XL picture"},
     Magic{4, "JXL "sv, "a JPEG XL picture"},
@@ -36,7 +39,10 @@ constexpr std::array kForeign{
     Magic{4, "ftypmif1"sv, "a HEIF picture"},
     Magic{4, "ftyp"sv, "a video"},
     Magic{0, "#?RADIANCE"sv, "a Radiance HDR picture"},
-    Magic{0, "\x7f" "ELF"sv, "a program"},
+    Magic{0,
+          "\x7f"
+          "ELF"sv,
+          "a program"},
     Magic{0, "version https://git-lfs"sv, "a Git LFS pointer, not the file it stands for"},
 };
 
@@ -46,7 +52,8 @@ bool starts_with_at(std::string_view bytes, std::size_t offset, std::string_view
 
 std::string lower(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
 }
 
@@ -77,12 +84,18 @@ ImageFormat format_of_name(std::string_view path) {
 
 const char* format_name(ImageFormat format) {
   switch (format) {
-    case ImageFormat::Png: return "PNG";
-    case ImageFormat::Jpeg: return "JPEG";
-    case ImageFormat::Tiff: return "TIFF";
-    case ImageFormat::Exr: return "OpenEXR";
-    case ImageFormat::Webp: return "WebP";
-    case ImageFormat::Unknown: break;
+    case ImageFormat::Png:
+      return "PNG";
+    case ImageFormat::Jpeg:
+      return "JPEG";
+    case ImageFormat::Tiff:
+      return "TIFF";
+    case ImageFormat::Exr:
+      return "OpenEXR";
+    case ImageFormat::Webp:
+      return "WebP";
+    case ImageFormat::Unknown:
+      break;
   }
   return "unknown";
 }
@@ -93,10 +106,12 @@ std::string describe_content(std::string_view bytes) {
   }
   const std::string head = lower(bytes.substr(0, 1024));
   if (head.find("<svg") != std::string::npos) return "an SVG drawing";
-  if (head.find("<html") != std::string::npos || head.find("<!doctype html") != std::string::npos) return "an HTML page";
+  if (head.find("<html") != std::string::npos || head.find("<!doctype html") != std::string::npos)
+    return "an HTML page";
   if (head.starts_with("<?xml")) return "an XML document";
   if (!head.empty() && (head[0] == '{' || head[0] == '[')) return "JSON text";
-  const bool text = std::all_of(head.begin(), head.end(), [](unsigned char c) { return c >= 0x20 || (c >= 9 && c <= 13); });
+  const bool text =
+      std::all_of(head.begin(), head.end(), [](unsigned char c) { return c >= 0x20 || (c >= 9 && c <= 13); });
   return text ? "text" : "binary data of an unknown kind";
 }
 

@@ -21,12 +21,17 @@ namespace {
 
 ImageContainer read_container(ImageFormat format, const std::string& bytes, const std::string& name) {
   switch (format) {
-    case ImageFormat::Png: return read_png_container(bytes, name);
-    case ImageFormat::Jpeg: return read_jpeg_container(bytes, name);
-    case ImageFormat::Tiff: return read_tiff_container(bytes, name);
-    case ImageFormat::Webp: return read_webp_container(bytes, name);
+    case ImageFormat::Png:
+      return read_png_container(bytes, name);
+    case ImageFormat::Jpeg:
+      return read_jpeg_container(bytes, name);
+    case ImageFormat::Tiff:
+      return read_tiff_container(bytes, name);
+    case ImageFormat::Webp:
+      return read_webp_container(bytes, name);
     case ImageFormat::Exr:
-    case ImageFormat::Unknown: break;
+    case ImageFormat::Unknown:
+      break;
   }
   throw std::invalid_argument("read_container: no container of ours");
 }
@@ -49,7 +54,8 @@ void check_pixels(Size size, const std::string& name, const LoadLimits& limits) 
 
 void check_complete(const ImageContainer& file, const std::string& name, const LoadLimits& limits) {
   if (file.truncated && !limits.allow_truncated) {
-    throw InputError(name, "is cut off before its end; get the whole file, or pass --allow-truncated to use what is there");
+    throw InputError(name,
+                     "is cut off before its end; get the whole file, or pass --allow-truncated to use what is there");
   }
 }
 
@@ -132,13 +138,16 @@ void convert_samples(const Samples& samples, const ImageContainer& file, const s
   out.color = ColorImage(samples.size);
   if (samples.alpha) out.alpha = Mask(samples.size);
   std::vector<int> bad(samples.size.height, 0);
-  parallel_for(samples.size.height, [&](int y) {
-    std::vector<float> values;
-    read_row(samples, y, values);
-    bad[y] = clean(values);
-    split_row(values, samples, profile ? &*profile : nullptr, file.associated_alpha, out.color.row(y),
-              samples.alpha ? out.alpha.row(y) : nullptr);
-  }, 16);
+  parallel_for(
+      samples.size.height,
+      [&](int y) {
+        std::vector<float> values;
+        read_row(samples, y, values);
+        bad[y] = clean(values);
+        split_row(values, samples, profile ? &*profile : nullptr, file.associated_alpha, out.color.row(y),
+                  samples.alpha ? out.alpha.row(y) : nullptr);
+      },
+      16);
   long long total = 0;
   for (const int count : bad) total += count;
   if (total > 0) out.warnings.push_back(std::to_string(total) + " values were not finite and became 0");
@@ -163,7 +172,8 @@ Image<T> oriented(const Image<T>& from, int orientation) {
   return to;
 }
 
-LoadedImage decode_container(ImageFormat format, const std::string& bytes, const std::string& name, const LoadLimits& limits) {
+LoadedImage decode_container(ImageFormat format, const std::string& bytes, const std::string& name,
+                             const LoadLimits& limits) {
   LoadedImage out;
   ImageContainer file = read_container(format, bytes, name);
   check_pixels(file.size, name, limits);
@@ -191,7 +201,8 @@ LoadedImage decode_image(const std::string& bytes, const std::string& path, cons
                                                : decode_container(format, bytes, name, limits);
   out.sha256 = sha256_hex(bytes);
   if (format_of_name(path) != format) {
-    out.warnings.insert(out.warnings.begin(), "it is a " + std::string(format_name(format)) + " file, whatever its name says");
+    out.warnings.insert(out.warnings.begin(),
+                        "it is a " + std::string(format_name(format)) + " file, whatever its name says");
   }
   return out;
 }

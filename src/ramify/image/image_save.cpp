@@ -32,27 +32,30 @@ Samples quantize(const ColorImage& image, const Mask* alpha, int bits, bool dith
   const int channels = out.channels(), width = image.width();
   const std::size_t sample = bits / 8, stride = sample * channels * width;
   out.bytes.resize(stride * image.height());
-  parallel_for(image.height(), [&](int y) {
-    unsigned char* to = out.bytes.data() + stride * y;
-    const auto put = [&](auto value) {
-      std::memcpy(to, &value, sizeof value);
-      to += sizeof value;
-    };
-    for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        const float value = image(x, y)[c];
-        const double shift = dither ? hash01(0x646974686572, x, y, c) - 0.5 : 0.0;
-        if (bits == 8) put(static_cast<std::uint8_t>(level_of(value, 255, shift)));
-        if (bits == 16) put(static_cast<std::uint16_t>(level_of(value, 65535, 0.0)));
-        if (bits == 32) put(value);
-      }
-      if (!alpha) continue;
-      const std::uint8_t opacity = (*alpha)(x, y);
-      if (bits == 8) put(opacity);
-      if (bits == 16) put(static_cast<std::uint16_t>(opacity * 257));
-      if (bits == 32) put(static_cast<float>(opacity) / 255.0f);
-    }
-  }, 16);
+  parallel_for(
+      image.height(),
+      [&](int y) {
+        unsigned char* to = out.bytes.data() + stride * y;
+        const auto put = [&](auto value) {
+          std::memcpy(to, &value, sizeof value);
+          to += sizeof value;
+        };
+        for (int x = 0; x < width; ++x) {
+          for (int c = 0; c < 3; ++c) {
+            const float value = image(x, y)[c];
+            const double shift = dither ? hash01(0x646974686572, x, y, c) - 0.5 : 0.0;
+            if (bits == 8) put(static_cast<std::uint8_t>(level_of(value, 255, shift)));
+            if (bits == 16) put(static_cast<std::uint16_t>(level_of(value, 65535, 0.0)));
+            if (bits == 32) put(value);
+          }
+          if (!alpha) continue;
+          const std::uint8_t opacity = (*alpha)(x, y);
+          if (bits == 8) put(opacity);
+          if (bits == 16) put(static_cast<std::uint16_t>(opacity * 257));
+          if (bits == 32) put(static_cast<float>(opacity) / 255.0f);
+        }
+      },
+      16);
   return out;
 }
 
@@ -78,16 +81,21 @@ void check_fits(const std::string& path, ImageFormat format, Size size, bool alp
   const std::string name = printable(path, 300), kind = format_name(format);
   if (size.width <= 0 || size.height <= 0) throw OutputError(name, "the picture has no pixels");
   if (fitting_bits(path, bits) != bits) {
-    throw OptionError("depth", std::to_string(bits), kind + " holds " + std::to_string(fitting_bits(path, bits)) + " bits; choose that depth or another format");
+    throw OptionError(
+        "depth", std::to_string(bits),
+        kind + " holds " + std::to_string(fitting_bits(path, bits)) + " bits; choose that depth or another format");
   }
   const int longest = format == ImageFormat::Jpeg ? 65500 : format == ImageFormat::Webp ? 16383 : 1 << 30;
   if (std::max(size.width, size.height) > longest) {
-    throw OutputError(name, kind + " pictures have at most " + std::to_string(longest) + " px a side; write a .png or .tif");
+    throw OutputError(name,
+                      kind + " pictures have at most " + std::to_string(longest) + " px a side; write a .png or .tif");
   }
-  if (alpha && format == ImageFormat::Jpeg) throw OutputError(name, "JPEG cannot hold transparency; write a .png or .tif");
+  if (alpha && format == ImageFormat::Jpeg)
+    throw OutputError(name, "JPEG cannot hold transparency; write a .png or .tif");
 }
 
-std::string encode_with_vips(ImageFormat format, const ColorImage& image, const Mask* alpha, const SaveOptions& options) {
+std::string encode_with_vips(ImageFormat format, const ColorImage& image, const Mask* alpha,
+                             const SaveOptions& options) {
   const bool dither = options.dither && options.bits == 8;
   const std::string file = encode_samples(format, quantize(image, alpha, options.bits, dither), options.quality,
                                           format == ImageFormat::Png ? "" : xmp_of_recipe(options.recipe));
@@ -98,7 +106,8 @@ void save(const std::string& path, const ColorImage& image, const Mask* alpha, c
   const std::string bytes = encode_image(path, image, alpha, options);
   AtomicFile picture(path);
   picture.write(bytes);
-  if (format_of_name(path) == ImageFormat::Jpeg && !options.recipe.empty()) write_file(recipe_path(path), options.recipe);
+  if (format_of_name(path) == ImageFormat::Jpeg && !options.recipe.empty())
+    write_file(recipe_path(path), options.recipe);
   picture.commit();
 }
 
@@ -111,19 +120,26 @@ void check_image_name(const std::string& path) {
 
 int fitting_bits(const std::string& path, int bits) {
   switch (format_of_name(path)) {
-    case ImageFormat::Png: return bits <= 8 ? 8 : 16;
-    case ImageFormat::Tiff: return bits <= 8 ? 8 : bits <= 16 ? 16 : 32;
-    case ImageFormat::Exr: return bits <= 16 ? 16 : 32;
+    case ImageFormat::Png:
+      return bits <= 8 ? 8 : 16;
+    case ImageFormat::Tiff:
+      return bits <= 8 ? 8 : bits <= 16 ? 16 : 32;
+    case ImageFormat::Exr:
+      return bits <= 16 ? 16 : 32;
     case ImageFormat::Jpeg:
     case ImageFormat::Webp:
-    case ImageFormat::Unknown: break;
+    case ImageFormat::Unknown:
+      break;
   }
   return 8;
 }
 
-std::string recipe_path(const std::string& path) { return path + ".recipe.json"; }
+std::string recipe_path(const std::string& path) {
+  return path + ".recipe.json";
+}
 
-std::string encode_image(const std::string& path, const ColorImage& image, const Mask* alpha, const SaveOptions& options) {
+std::string encode_image(const std::string& path, const ColorImage& image, const Mask* alpha,
+                         const SaveOptions& options) {
   check_image_name(path);
   const ImageFormat format = format_of_name(path);
   check_fits(path, format, image.size(), alpha != nullptr, options.bits);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
+#include <optional>
 
 #include "ramify/core/error.h"
 #include "ramify/image/image_container.h"
@@ -9,10 +9,12 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr unsigned kStartOfImage = 0xD8, kEndOfImage = 0xD9, kStartOfScan = 0xDA, kApp0 = 0xE0, kApp1 = 0xE1, kApp2 = 0xE2,
-                   kApp14 = 0xEE, kApp15 = 0xEF, kComment = 0xFE;
+constexpr unsigned kStartOfImage = 0xD8, kEndOfImage = 0xD9, kStartOfScan = 0xDA, kApp0 = 0xE0, kApp1 = 0xE1,
+                   kApp2 = 0xE2, kApp14 = 0xEE, kApp15 = 0xEF, kComment = 0xFE;
 
-bool stands_alone(unsigned marker) { return marker == 0x01 || (marker >= 0xD0 && marker <= 0xD7); }
+bool stands_alone(unsigned marker) {
+  return marker == 0x01 || (marker >= 0xD0 && marker <= 0xD7);
+}
 
 bool is_frame_header(unsigned marker) {
   return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
@@ -51,48 +53,51 @@ std::size_t end_of_scan(std::string_view bytes, std::size_t at) {
   return bytes.size();
 }
 
+struct Segment {
+  unsigned marker = 0;
+  std::string_view whole, data;  // a scan's compressed data belongs to `whole`
+};
+
+// The segment at or after `at`, which moves behind it; nothing when the file ends before it does. Stray bytes between
+// segments are skipped, as libjpeg does.
+std::optional<Segment> next_segment(std::string_view bytes, std::size_t& at, const std::string& name) {
+  for (; at + 2 <= bytes.size(); ++at) {
+    const unsigned marker = byte_at(bytes, at + 1);
+    if (bytes[at] != '\xff' || marker == 0xFF || marker == 0x00 || marker == kStartOfImage || stands_alone(marker))
+      continue;
+    if (marker == kEndOfImage) return Segment{marker, {}, {}};
+    if (at + 4 > bytes.size()) return std::nullopt;
+    const std::size_t length = big16(bytes, at + 2);
+    if (length < 2) throw InputError(name, "is not a valid JPEG: an empty segment at byte " + std::to_string(at));
+    if (at + 2 + length > bytes.size()) return std::nullopt;
+    const std::size_t begin = at;
+    at = marker == kStartOfScan ? end_of_scan(bytes, begin + 2 + length) : begin + 2 + length;
+    return Segment{marker, bytes.substr(begin, at - begin), bytes.substr(begin + 4, length - 2)};
+  }
+  return std::nullopt;
+}
+
+bool is_metadata(unsigned marker) {
+  return marker == kComment || (marker >= kApp0 && marker <= kApp15 && marker != kApp0 && marker != kApp14);
+}
+
 }  // namespace
 
 ImageContainer read_jpeg_container(std::string_view bytes, const std::string& name) {
   ImageContainer out;
   ProfilePieces profile;
   out.pixels = bytes.substr(0, 2);
-  out.truncated = true;
   std::size_t at = 2;
-  while (at + 2 <= bytes.size()) {
-    if (bytes[at] != '\xff') {  // libjpeg skips stray bytes between segments; so do we
-      ++at;
-      continue;
-    }
-    const unsigned marker = static_cast<unsigned char>(bytes[at + 1]);
-    if (marker == 0xFF) {
-      ++at;
-      continue;
-    }
-    if (marker == kEndOfImage) {
-      out.truncated = false;
-      break;
-    }
-    if (stands_alone(marker) || marker == kStartOfImage || marker == 0x00) {
-      at += 2;
-      continue;
-    }
-    if (at + 4 > bytes.size()) break;
-    const std::size_t length = big16(bytes, at + 2);
-    if (length < 2) throw InputError(name, "is not a valid JPEG: an empty segment at byte " + std::to_string(at));
-    if (at + 2 + length > bytes.size()) break;
-    const std::string_view data = bytes.substr(at + 4, length - 2);
-    if (is_frame_header(marker) && out.size.width == 0) out.size = read_frame_header(data, name);
-    std::size_t end = at + 2 + length;
-    if (marker == kStartOfScan) end = end_of_scan(bytes, end);
-    const bool metadata = (marker >= kApp0 && marker <= kApp15 && marker != kApp0 && marker != kApp14) || marker == kComment;
-    if (metadata) {
-      read_metadata(marker, data, out, profile);
+  std::optional<Segment> segment;
+  while ((segment = next_segment(bytes, at, name)) && segment->marker != kEndOfImage) {
+    if (is_frame_header(segment->marker) && out.size.width == 0) out.size = read_frame_header(segment->data, name);
+    if (is_metadata(segment->marker)) {
+      read_metadata(segment->marker, segment->data, out, profile);
     } else {
-      out.pixels += bytes.substr(at, end - at);
+      out.pixels += segment->whole;
     }
-    at = end;
   }
+  out.truncated = !segment;
   if (out.size.width == 0) throw InputError(name, "is cut off: the file ends before the JPEG header is complete");
   out.pixels += "\xff\xd9";
   if (profile.pieces.size() == profile.expected) {

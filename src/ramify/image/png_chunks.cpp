@@ -10,8 +10,8 @@ namespace ramify {
 namespace {
 
 constexpr std::size_t kSignature = 8;
-constexpr std::size_t kFrame = 12;                 // length, type and checksum around a chunk's data
-constexpr std::size_t kInflateLimit = 10u << 20;   // bytes of one text or profile, as OpenImageIO allows
+constexpr std::size_t kFrame = 12;                // length, type and checksum around a chunk's data
+constexpr std::size_t kInflateLimit = 10u << 20;  // bytes of one text or profile, as OpenImageIO allows
 
 struct Chunk {
   std::string_view type;
@@ -19,7 +19,8 @@ struct Chunk {
 };
 
 std::uint32_t chunk_crc(std::string_view type_and_data) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(type_and_data.data()), type_and_data.size()));
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(type_and_data.data()), type_and_data.size()));
 }
 
 void put_big32(std::string& out, std::uint32_t value) {
@@ -105,8 +106,10 @@ bool read_profile(std::string_view data, std::string& profile) {
 Size read_header(std::string_view data, const std::string& name) {
   if (data.size() != 13) throw InputError(name, "is not a valid PNG: its header has the wrong length");
   const std::uint32_t width = big32(data, 0), height = big32(data, 4);
-  if (width == 0 || height == 0) throw InputError(name, "has no pixels (" + std::to_string(width) + " x " + std::to_string(height) + ")");
-  if (width > 0x7FFFFFFFu || height > 0x7FFFFFFFu) throw InputError(name, "is not a valid PNG: its size is out of range");
+  if (width == 0 || height == 0)
+    throw InputError(name, "has no pixels (" + std::to_string(width) + " x " + std::to_string(height) + ")");
+  if (width > 0x7FFFFFFFu || height > 0x7FFFFFFFu)
+    throw InputError(name, "is not a valid PNG: its size is out of range");
   return {static_cast<int>(width), static_cast<int>(height)};
 }
 
@@ -136,7 +139,8 @@ ImageContainer read_png_container(std::string_view bytes, const std::string& nam
     const std::size_t length = big32(bytes, at);
     const Chunk chunk{bytes.substr(at + 4, 4), bytes.substr(at + 8, length)};
     const bool first = out.size.width == 0;
-    if (first != (chunk.type == "IHDR")) throw InputError(name, "is not a valid PNG: it must have one header at its start");
+    if (first != (chunk.type == "IHDR"))
+      throw InputError(name, "is not a valid PNG: it must have one header at its start");
     if (length > bytes.size() - at - kFrame) {  // keep what is there of the pixels, for allow_truncated
       if (chunk.type == "IDAT") put_chunk(out.pixels, chunk.type, chunk.data);
       break;

@@ -17,8 +17,18 @@ constexpr std::size_t kMaxPages = 10000;
 constexpr std::size_t kMaxEntries = 4096;  // of one directory; baseline files have about 20
 
 enum Tag : unsigned {
-  kWidth = 256, kHeight = 257, kBitsPerSample = 258, kDescription = 270, kStripOffsets = 273, kOrientation = 274, kStripBytes = 279,
-  kTileOffsets = 324, kTileBytes = 325, kExtraSamples = 338, kXmp = 700, kIccProfile = 34675,
+  kWidth = 256,
+  kHeight = 257,
+  kBitsPerSample = 258,
+  kDescription = 270,
+  kStripOffsets = 273,
+  kOrientation = 274,
+  kStripBytes = 279,
+  kTileOffsets = 324,
+  kTileBytes = 325,
+  kExtraSamples = 338,
+  kXmp = 700,
+  kIccProfile = 34675,
 };
 
 struct Entry {
@@ -43,7 +53,9 @@ unsigned bytes_of_type(unsigned type) {
 class TiffReader {
  public:
   explicit TiffReader(std::string_view bytes)
-      : bytes_(bytes), big_endian_(bytes.starts_with("MM")), wide_(bytes.size() > 2 && bytes[big_endian_ ? 3 : 2] == '+') {}
+      : bytes_(bytes),
+        big_endian_(bytes.starts_with("MM")),
+        wide_(bytes.size() > 2 && bytes[big_endian_ ? 3 : 2] == '+') {}
 
   bool holds(std::uint64_t at, std::uint64_t count) const { return at <= bytes_.size() && count <= bytes_.size() - at; }
   std::uint64_t number(std::uint64_t at, unsigned bytes) const {
@@ -71,7 +83,8 @@ class TiffReader {
       const std::uint64_t entry = at + count_bytes + i * entry_bytes;
       Entry read{static_cast<unsigned>(number(entry, 2)), static_cast<unsigned>(number(entry + 2, 2)),
                  number(entry + 4, word()), entry + 4 + word()};
-      if (read.count > bytes_.size() || read.count * bytes_of_type(read.type) > word()) read.data = number(read.data, word());
+      if (read.count > bytes_.size() || read.count * bytes_of_type(read.type) > word())
+        read.data = number(read.data, word());
       out.entries.push_back(read);
     }
     out.next_at = at + count_bytes + count * entry_bytes;
@@ -154,7 +167,8 @@ Size size_of(const TiffReader& reader, const Directory& directory, const std::st
 void check_depth(const TiffReader& reader, const Directory& directory, const std::string& name) {
   const Entry* bits = find(directory, kBitsPerSample);
   if (bits && reader.readable(*bits) && reader.value(*bits) > 32) {
-    throw InputError(name, "has " + std::to_string(reader.value(*bits)) + "-bit samples; convert it to 32-bit floats first");
+    throw InputError(name,
+                     "has " + std::to_string(reader.value(*bits)) + "-bit samples; convert it to 32-bit floats first");
   }
 }
 
@@ -189,7 +203,8 @@ ImageContainer read_tiff_container(std::string_view bytes, const std::string& na
   reader.put_small(out.pixels, directory->next_at, reader.word(), 0);  // the decoder sees one page
   const Entry* extra = find(*directory, kExtraSamples);
   out.associated_alpha = extra && extra->type == kShort && reader.readable(*extra) && reader.value(*extra) == 1;
-  if (out.associated_alpha) reader.put_small(out.pixels, extra->data, 2, 2);  // we divide in floats, libvips would round
+  if (out.associated_alpha)
+    reader.put_small(out.pixels, extra->data, 2, 2);  // we divide in floats, libvips would round
   return out;
 }
 

@@ -13,10 +13,12 @@ void keep_silent(const char*, GLogLevelFlags, const char*, void*) {}
 // The handle stays open until the program ends; glib's own functions are found through libvips' dependencies.
 VipsLibrary load() {
   void* handle = dlopen(RAMIFY_VIPS_SONAME, RTLD_NOW | RTLD_LOCAL);
-  const auto fail = [] { throw Error(ExitCode::Bug, "libvips cannot be loaded: " + std::string(dlerror()) + "; install it"); };
+  const auto fail = [] {
+    throw Error(ExitCode::Bug, "libvips cannot be loaded: " + std::string(dlerror()) + "; install it");
+  };
   if (!handle) fail();
   VipsLibrary library;
-#define RAMIFY_VIPS_FIND(name)                                            \
+#define RAMIFY_VIPS_FIND(name)                                              \
   library.name = reinterpret_cast<decltype(&::name)>(dlsym(handle, #name)); \
   if (!library.name) fail();
   RAMIFY_VIPS_FUNCTIONS(RAMIFY_VIPS_FIND)
@@ -26,7 +28,8 @@ VipsLibrary load() {
 
 VipsLibrary start() {
   const VipsLibrary library = load();
-  library.g_log_set_handler("VIPS", static_cast<GLogLevelFlags>(G_LOG_LEVEL_MASK | G_LOG_FLAG_FATAL | G_LOG_FLAG_RECURSION),
+  library.g_log_set_handler("VIPS",
+                            static_cast<GLogLevelFlags>(G_LOG_LEVEL_MASK | G_LOG_FLAG_FATAL | G_LOG_FLAG_RECURSION),
                             keep_silent, nullptr);
   if (library.vips_init("ramify") != 0) {
     throw Error(ExitCode::Bug, "libvips cannot be started: " + printable(library.vips_error_buffer()));

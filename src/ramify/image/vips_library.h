@@ -11,6 +11,7 @@
 namespace ramify {
 
 // The functions we call, under their own names.
+// clang-format off
 #define RAMIFY_VIPS_FUNCTIONS(X)                                                                                     \
   X(vips_init) X(vips_error_buffer) X(vips_error_clear) X(vips_block_untrusted_set) X(vips_concurrency_set)          \
   X(vips_cache_set_max) X(vips_pngload_buffer) X(vips_jpegload_buffer) X(vips_tiffload_buffer)                       \
@@ -19,6 +20,7 @@ namespace ramify {
   X(vips_image_get_height) X(vips_image_get_bands) X(vips_image_get_n_pages) X(vips_image_write_to_memory)           \
   X(vips_image_new_from_memory) X(vips_image_set_blob_copy) X(vips_linear1) X(vips_profile_load) X(vips_blob_get)    \
   X(vips_area_unref) X(g_object_unref) X(g_free) X(g_log_set_handler)
+// clang-format on
 
 struct VipsLibrary {
 #define RAMIFY_VIPS_MEMBER(name) decltype(&::name) name = nullptr;

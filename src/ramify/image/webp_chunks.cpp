@@ -50,7 +50,8 @@ void read_chunk(std::string_view type, std::string_view data, ImageContainer& ou
   if (type == "ICCP") {
     out.profile = data;
   } else if (type == "EXIF") {
-    out.orientation = exif_orientation(data.starts_with("Exif") ? data.substr(std::min<std::size_t>(6, data.size())) : data);
+    out.orientation =
+        exif_orientation(data.starts_with("Exif") ? data.substr(std::min<std::size_t>(6, data.size())) : data);
   } else if (type == "XMP ") {
     const std::string recipe = recipe_of_xmp(std::string(data));
     if (!recipe.empty()) out.texts[kRecipeKey] = recipe;

@@ -43,8 +43,8 @@ std::string digest_of(const fs::path& path) {
 std::vector<fs::path> candidates(const fs::path& folder, const fs::path& hint) {
   std::vector<fs::path> paths;
   std::error_code error;
-  for (fs::directory_iterator it(folder, fs::directory_options::skip_permission_denied, error), end; !error && it != end;
-       it.increment(error)) {
+  for (fs::directory_iterator it(folder, fs::directory_options::skip_permission_denied, error), end;
+       !error && it != end; it.increment(error)) {
     if (paths.size() >= kMostFiles) break;
     if (it->path().extension() == hint.extension() && it->is_regular_file(error)) paths.push_back(it->path());
   }
@@ -75,12 +75,11 @@ std::string find_input(const RecipeInput& input, const std::string& folder) {
   if (has_photos) {
     if (const auto path = find_in(photos, input, other_content)) return *path;
   }
-  throw InputError(printable(input.file, 300),
-                   "the " + input.role + " with sha256 " + input.sha256.substr(0, 12) + "… is neither in " +
-                       printable(beside, 300) + " nor in RAMIFY_PHOTOS" +
-                       (has_photos ? " (" + printable(photos, 300) + ")" : " (which is not set)") +
-                       (other_content ? "; the file of this name has other content" : "") +
-                       "; put the file there and run again");
+  throw InputError(
+      printable(input.file, 300),
+      "the " + input.role + " with sha256 " + input.sha256.substr(0, 12) + "… is neither in " + printable(beside, 300) +
+          " nor in RAMIFY_PHOTOS" + (has_photos ? " (" + printable(photos, 300) + ")" : " (which is not set)") +
+          (other_content ? "; the file of this name has other content" : "") + "; put the file there and run again");
 }
 
 }  // namespace ramify

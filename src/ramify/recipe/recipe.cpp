@@ -46,7 +46,8 @@ std::uint64_t read_seed(const JsonDocument& document, const Json& at) {
   if (const auto* number = std::get_if<std::int64_t>(&at.value)) {
     if (*number >= 0) return static_cast<std::uint64_t>(*number);
   } else if (const auto* digits = std::get_if<std::string>(&at.value)) {
-    const bool plain = !digits->empty() && digits->size() <= 20 && digits->find_first_not_of("0123456789") == std::string::npos;
+    const bool plain =
+        !digits->empty() && digits->size() <= 20 && digits->find_first_not_of("0123456789") == std::string::npos;
     std::uint64_t value = 0;
     bool fits = plain;
     for (std::size_t i = 0; fits && i < digits->size(); ++i) {
