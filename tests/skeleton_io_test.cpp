@@ -240,4 +240,19 @@ TEST_CASE("svg drawings of other programs become branches") {
   CHECK(loaded.skeleton[3].order == 1);
   CHECK(loaded.notes.size() == 2);
   CHECK_THROWS_AS(parse_skeleton("<svg viewBox='0 0 9 9'><path d='M0 0h9'/></svg>", "f"), InputError);
+  // A drawing of ours with a point added by hand: its branches stay, their radii become the mean ones.
+  Skeleton own({50, 50});
+  for (int i = 0; i < 5; ++i) own.append({Vec3(5 * i, 10, 0), 2.0 + i, i - 1});
+  own.append({Vec3(12, 30, 0), 1.5, 2, 1});
+  own.append({Vec3(12, 40, 0), 1.5, 5, 1});
+  std::string edited = svg_text(own);
+  const std::size_t end = edited.find("20.5 10.5\"");
+  REQUIRE(end != std::string::npos);
+  edited.insert(end + 9, " 30.5 12.5");
+  const Skeleton back = parse_skeleton(edited, "f").skeleton;
+  REQUIRE(back.count() == 8);
+  CHECK(back[5].position == Vec3(30, 12, 0));
+  CHECK(back[0].radius == Approx(4.0));
+  CHECK(back[6].parent == 2);
+  CHECK(back[6].radius == Approx(1.5));
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kColumns = 2;
 constexpr double kWidth = 420.0, kHeight = 220.0;                            // of one plot
-constexpr double kLeft = 48.0, kRight = 12.0, kTop = 34.0, kBottom = 36.0;   // margins
+constexpr double kLeft = 52.0, kRight = 12.0, kTop = 34.0, kBottom = 36.0;   // margins
 constexpr double kLegend = 30.0;
 
 std::string place(double x, double y) { return figure_text(x) + "," + figure_text(y); }
@@ -40,7 +40,7 @@ std::string one_plot(const HistogramFigure& figure, double x0, double y0) {
   out += text_at(x0 + kLeft + w / 2, y0 + 20, "middle", figure.label + (figure.unit.empty() ? "" : " (" + figure.unit + ")"));
   out += text_at(x0 + kLeft, base + 18, "middle", figure_text(figure.exemplar.low));
   out += text_at(x0 + kLeft + w, base + 18, "end", figure_text(figure.exemplar.high));
-  out += text_at(x0 + kLeft - 6, y_of(top) + 4, "end", figure_text(100.0 * top) + " %");
+  out += text_at(x0 + kLeft - 6, y_of(top) + 4, "end", std::to_string(std::lround(100.0 * top)) + " %");
   return out + text_at(x0 + kLeft - 6, base, "end", "0");
 }
 

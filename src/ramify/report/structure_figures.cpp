@@ -8,10 +8,21 @@ namespace ramify {
 namespace {
 
 constexpr double kHeadingCounts = 0.3;  // strength from which an order has a direction of its own (PICTURES 1)
-constexpr double kHeadingLength = 0.02; // share of the length an order needs to be judged
+constexpr double kHeadingLength = 0.02; // share of the length an order needs on both sides to be judged
 constexpr double kNovel = 0.15;         // overlap above chance that still counts as new (PICTURES 10)
 
 std::string percent(double share) { return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %"; }
+
+double degrees(double angle) { return angle * 180.0 / kPi; }
+
+// Plots show angles in degrees.
+void add_histogram(const std::string& label, const std::string& unit, HistogramPair pair, StructureComparison& out) {
+  const bool angle = unit == "rad";
+  for (Histogram* h : {&pair.first, &pair.second}) {
+    if (angle) h->low = degrees(h->low), h->high = degrees(h->high);
+  }
+  out.histograms.push_back({label, angle ? "deg" : unit, pair.first, pair.second});
+}
 
 void add_distribution(const std::string& key, const std::string& label, const std::string& unit,
                       const std::vector<std::vector<double>>& exemplar, const std::vector<std::vector<double>>& result,
@@ -19,7 +30,7 @@ void add_distribution(const std::string& key, const std::string& label, const st
   const auto a = pooled(exemplar), b = pooled(result);
   const HistogramPair pair = make_histograms(a, b);
   const NoiseFloor floor = noise_floor(exemplar, rng);
-  out.histograms.push_back({label, unit, pair.first, pair.second});
+  add_histogram(label, unit, pair, out);
   Figure tv{key + "_tv", label + ", total variation", "", {}, total_variation(pair.first, pair.second), floor.total_variation, "", {}};
   out.figures.push_back(judged(tv, 0.0, 2.0 * floor.total_variation, "at most twice the spread"));
   out.figures.push_back({key + "_js", label + ", Jensen-Shannon", "bit", {}, jensen_shannon(pair.first, pair.second),
@@ -36,8 +47,6 @@ void add_rate(const std::string& key, const std::string& label, const std::strin
                                 : figure);
 }
 
-double degrees(double angle) { return angle * 180.0 / kPi; }
-
 void add_headings(StructureComparison& out) {
   const auto add = [&](const std::string& key, const std::string& label, const Heading& a, const Heading& b) {
     Figure strength{key + "_strength", label + ", strength", "", a.strength, b.strength, {}, "", Verdict::None};
@@ -49,7 +58,8 @@ void add_headings(StructureComparison& out) {
   add("heading", "direction of all edges", out.exemplar.heading, out.result.heading);
   const std::size_t orders = std::min(out.exemplar.order_headings.size(), out.result.order_headings.size());
   for (std::size_t o = 0; o < orders; ++o) {
-    if (out.exemplar.order_lengths[o] < kHeadingLength * out.exemplar.total_length) continue;
+    const auto counts = [o](const SkeletonStatistics& side) { return side.order_lengths[o] >= kHeadingLength * side.total_length; };
+    if (!counts(out.exemplar) || !counts(out.result)) continue;
     add("heading_order" + std::to_string(o), "direction of order " + std::to_string(o), out.exemplar.order_headings[o],
         out.result.order_headings[o]);
   }
@@ -165,13 +175,11 @@ StructureComparison compare_structure(const Skeleton& exemplar, const Skeleton& 
   out.result = measure_statistics(result, step);
   add_distribution("angle", "turning angle", "rad", out.exemplar.bends.angles, out.result.bends.angles, rng.child("angle"), out);
   add_distribution("radius", "radius", "px", out.exemplar.bends.radii, out.result.bends.radii, rng.child("radius"), out);
-  const auto add_histogram = [&](const std::string& label, const std::string& unit, const std::vector<double>& a, const std::vector<double>& b) {
-    if (a.empty() || b.empty()) return;
-    const HistogramPair pair = make_histograms(a, b);
-    out.histograms.push_back({label, unit, pair.first, pair.second});
-  };
-  add_histogram("gap between furcations", "px", out.exemplar.gaps, out.result.gaps);
-  add_histogram("angle of children", "rad", out.exemplar.fork_angles, out.result.fork_angles);
+  const SkeletonStatistics &a = out.exemplar, &b = out.result;
+  if (!a.gaps.empty() && !b.gaps.empty()) add_histogram("gap between furcations", "px", make_histograms(a.gaps, b.gaps), out);
+  if (!a.fork_angles.empty() && !b.fork_angles.empty()) {
+    add_histogram("angle of children", "rad", make_histograms(a.fork_angles, b.fork_angles), out);
+  }
   add_shapes(out);
   add_headings(out);
   if (exemplar.size == result.size) {

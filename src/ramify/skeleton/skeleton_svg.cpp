@@ -16,14 +16,12 @@ std::string point_text(const Vec2& p) { return short_number(p.x() + 0.5) + " " +
 
 std::string centre_path(const Skeleton& skeleton, const Branch& branch, int index) {
   std::string d, radii;
-  double mean = 0.0;
   if (branch.parent_node != kNone) d = point_text(skeleton[branch.parent_node].xy());
   for (const int i : branch.nodes) {
     d += (d.empty() ? "" : " ") + point_text(skeleton[i].xy());
     radii += (radii.empty() ? "" : " ") + short_number(skeleton[i].radius);
-    mean += skeleton[i].radius / static_cast<double>(branch.nodes.size());
   }
-  std::string out = "<path id=\"branch" + std::to_string(index) + "\" stroke-width=\"" + short_number(2.0 * mean) + "\" ";
+  std::string out = "<path id=\"branch" + std::to_string(index) + "\" ";
   if (branch.parent_node != kNone) out += "data-parent=\"" + std::to_string(branch.parent_node) + "\" ";
   out += "data-nodes=\"";
   for (std::size_t k = 0; k < branch.nodes.size(); ++k) out += (k > 0 ? " " : "") + std::to_string(branch.nodes[k]);
@@ -71,10 +69,10 @@ std::string svg_text(const Skeleton& skeleton) {
                     "stroke=\"none\" fill-rule=\"nonzero\">\n";
   for (const Branch& branch : tree.branches) out += outline_path(skeleton, branch);
   out += "</g>\n<g id=\"centre-lines\" inkscape:groupmode=\"layer\" inkscape:label=\"centre lines\" fill=\"none\" "
-         "stroke=\"#c0392b\" stroke-opacity=\"0.6\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
+         "stroke=\"#c0392b\" stroke-width=\"1\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
   for (std::size_t b = 0; b < tree.branches.size(); ++b) out += centre_path(skeleton, tree.branches[b], static_cast<int>(b));
   for (const auto& [a, b] : skeleton.loop_links) {
-    out += "<path class=\"loop\" data-loop=\"" + std::to_string(a) + " " + std::to_string(b) + "\" stroke-width=\"1\" d=\"M" +
+    out += "<path class=\"loop\" data-loop=\"" + std::to_string(a) + " " + std::to_string(b) + "\" d=\"M" +
            point_text(skeleton[a].xy()) + " " + point_text(skeleton[b].xy()) + "\"/>\n";
   }
   return out + "</g>\n</svg>\n";

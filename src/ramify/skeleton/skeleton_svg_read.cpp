@@ -78,6 +78,15 @@ bool read_own(const SvgDrawing& drawing, Skeleton& skeleton) {
   return true;
 }
 
+// Half the stroke's width; for a path of ours that was edited the mean of the radii it had; 1 px when neither is known.
+double path_radius(const SvgPath& path) {
+  const auto radii = numbers(path.data("radii"));
+  double mean = 0.0;
+  for (const double r : radii) mean += r / static_cast<double>(radii.size());
+  const double radius = mean > 0.0 ? mean : 0.5 * path.stroke_width;
+  return radius > 0.0 ? std::min(radius, kFarthest) : 1.0;
+}
+
 // The node of `nodes` that a path starting at `start` springs from: the nearest within its radius (at least 1 px).
 int find_parent(const std::vector<LooseNode>& nodes, const Vec2& start) {
   int best = kNone;
@@ -107,12 +116,13 @@ LoadedSkeleton parse_svg_skeleton(std::string_view text, const std::string& name
       ++filled;
       continue;
     }
+    if (!path.data("loop").empty()) continue;
     for (const Vec2& p : path.points) {
       if (!(p.cwiseAbs().maxCoeff() <= kFarthest)) throw InputError(name, "a path runs beyond " + number_text(kFarthest) + " px");
     }
     if ((work += nodes.size()) > kMostForeignWork) throw LimitError(name + ": too many paths");
     const int parent = path.points.empty() ? kNone : find_parent(nodes, path.points.front());
-    const double radius = path.stroke_width > 0.0 ? std::min(0.5 * path.stroke_width, kFarthest) : 1.0;
+    const double radius = path_radius(path);
     int last = parent;
     for (std::size_t k = parent == kNone ? 0 : 1; k < path.points.size(); ++k) {
       nodes.push_back({{path.points[k].x(), path.points[k].y(), 0.0}, radius, last, 0});
