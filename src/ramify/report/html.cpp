@@ -74,7 +74,7 @@ std::string report_html(const Report& report) {
   std::string out = std::string(kHead) + "<title>" + title + "</title></head><body>\n<h1>" + title + "</h1>\n<p>" +
                     (failed == 0 ? "No figure is outside its limit."
                                  : std::to_string(failed) + (failed == 1 ? " figure is" : " figures are") + " outside the limit.") +
-                    " Spread is what parts of the exemplar differ by among themselves: no result can be expected to come closer.</p>\n";
+                    " Spread is what parts of the exemplar differ by among themselves: a result need not come closer.</p>\n";
   if (!report.pictures.empty()) {
     out += "<div class=\"pair\">\n";
     for (const ReportPicture& p : report.pictures) out += picture(p, ".jpg", "image/jpeg");
