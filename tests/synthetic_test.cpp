@@ -107,7 +107,7 @@ TEST_CASE("synthetic skeletons are trees worth learning from") {
       CHECK(count_crossings(exemplar.skeleton) == 0);
       const BranchTree tree = branch_tree(exemplar.skeleton);
       CHECK(tree.branches.size() == exemplar.annotation.branches.size());
-      CHECK(tree.branches.size() >= 20);
+      CHECK(tree.branches.size() >= 30);
       CHECK(tree.branches.size() <= 90);
       int order = 0, leaving = 0;
       for (const Branch& branch : tree.branches) {

@@ -32,13 +32,13 @@ TreePlan crack_plan(Size size, Rng rng) {
   plan.roots.push_back({.start = Vec2(w * (flip ? rng.uniform(0.15, 0.4) : rng.uniform(0.6, 0.85)), -8.0),
                         .heading = second, .radius = 2.8 * s, .tip_share = 0.4,
                         .course = jagged(0.45, 0.006, second)});
-  plan.levels.push_back({.count = 8, .angle_low = 0.5, .angle_high = 1.2, .length_low = 0.35, .length_high = 0.9,
+  plan.levels.push_back({.count = 10, .angle_low = 0.5, .angle_high = 1.2, .length_low = 0.35, .length_high = 0.9,
                          .ratio_low = 0.35, .ratio_high = 0.65, .tip_share = 0.3, .shortest = 60.0 * s,
                          .alternate = 0.75, .first = 0.08, .last = 0.92, .course = jagged(0.45, 0, 0)});
-  plan.levels.push_back({.count = 14, .angle_low = 0.5, .angle_high = 1.25, .length_low = 0.25, .length_high = 0.7,
+  plan.levels.push_back({.count = 20, .angle_low = 0.5, .angle_high = 1.25, .length_low = 0.25, .length_high = 0.7,
                          .ratio_low = 0.4, .ratio_high = 0.7, .tip_share = 0.4, .shortest = 35.0 * s,
                          .alternate = 0.6, .first = 0.1, .last = 0.92, .course = jagged(0.5, 0, 0)});
-  plan.levels.push_back({.count = 16, .angle_low = 0.5, .angle_high = 1.3, .length_low = 0.2, .length_high = 0.6,
+  plan.levels.push_back({.count = 26, .angle_low = 0.5, .angle_high = 1.3, .length_low = 0.2, .length_high = 0.6,
                          .ratio_low = 0.5, .ratio_high = 0.8, .tip_share = 0.6, .shortest = 20.0 * s,
                          .alternate = 0.6, .first = 0.1, .last = 0.92, .course = jagged(0.5, 0, 0)});
   return plan;

@@ -40,13 +40,13 @@ TreePlan bolt_plan(Size size, double horizon, Rng rng) {
                         .heading = kDown - side * rng.uniform(-0.1, 0.5), .radius = 2.3 * s,
                         .length = horizon * rng.uniform(0.45, 0.8), .tip_share = 0.35,
                         .course = stepped(s, 0.45, 0.008, kDown)});
-  plan.levels.push_back({.count = 13, .angle_low = 0.5, .angle_high = 1.05, .length_low = 0.3, .length_high = 0.7,
+  plan.levels.push_back({.count = 16, .angle_low = 0.5, .angle_high = 1.05, .length_low = 0.3, .length_high = 0.7,
                          .ratio_low = 0.25, .ratio_high = 0.5, .tip_share = 0.35, .shortest = 40.0 * s,
                          .alternate = 0.6, .first = 0.08, .last = 0.9, .course = stepped(s, 0.48, 0.005, kDown)});
-  plan.levels.push_back({.count = 26, .angle_low = 0.45, .angle_high = 1.0, .length_low = 0.2, .length_high = 0.5,
+  plan.levels.push_back({.count = 36, .angle_low = 0.45, .angle_high = 1.0, .length_low = 0.2, .length_high = 0.5,
                          .ratio_low = 0.35, .ratio_high = 0.65, .tip_share = 0.45, .shortest = 20.0 * s,
                          .alternate = 0.6, .first = 0.12, .last = 0.92, .course = stepped(s, 0.5, 0.005, kDown)});
-  plan.levels.push_back({.count = 30, .angle_low = 0.45, .angle_high = 1.0, .length_low = 0.15,
+  plan.levels.push_back({.count = 44, .angle_low = 0.45, .angle_high = 1.0, .length_low = 0.15,
                          .length_high = 0.45, .ratio_low = 0.5, .ratio_high = 0.8, .tip_share = 0.6,
                          .shortest = 11.0 * s, .alternate = 0.6, .first = 0.15, .last = 0.9,
                          .course = stepped(s, 0.5, 0.004, kDown)});

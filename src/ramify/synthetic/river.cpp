@@ -41,14 +41,14 @@ TreePlan river_plan(Size size, Rng rng) {
     return Course{.bend_length = length * s, .bend_angle = bend, .ripple_length = 0.32 * length * s, .ripple_angle = ripple};
   };
   const Course tributary = winding(100.0, 0.75, 0.25), creek = winding(52.0, 0.75, 0.3), rill = winding(34.0, 0.7, 0.3);
-  plan.levels.push_back({.count = 8, .angle_low = 0.6, .angle_high = 1.25, .length_low = 0.45, .length_high = 1.0,
-                         .ratio_low = 0.10, .ratio_high = 0.30, .tip_share = 0.2, .shortest = 130.0 * s,
+  plan.levels.push_back({.count = 10, .angle_low = 0.6, .angle_high = 1.25, .length_low = 0.45, .length_high = 1.0,
+                         .ratio_low = 0.10, .ratio_high = 0.30, .tip_share = 0.2, .shortest = 110.0 * s, .whole = 0.45,
                          .alternate = 0.75, .first = 0.06, .last = 0.95, .course = tributary});
-  plan.levels.push_back({.count = 24, .angle_low = 0.55, .angle_high = 1.25, .length_low = 0.3, .length_high = 0.8,
-                         .ratio_low = 0.12, .ratio_high = 0.5, .tip_share = 0.3, .shortest = 50.0 * s,
+  plan.levels.push_back({.count = 32, .angle_low = 0.55, .angle_high = 1.25, .length_low = 0.3, .length_high = 0.8,
+                         .ratio_low = 0.12, .ratio_high = 0.5, .tip_share = 0.3, .shortest = 50.0 * s, .whole = 0.45,
                          .alternate = 0.6, .first = 0.08, .last = 0.95, .course = creek});
-  plan.levels.push_back({.count = 40, .angle_low = 0.55, .angle_high = 1.3, .length_low = 0.25, .length_high = 0.7,
-                         .ratio_low = 0.3, .ratio_high = 0.65, .tip_share = 0.5, .shortest = 24.0 * s,
+  plan.levels.push_back({.count = 52, .angle_low = 0.55, .angle_high = 1.3, .length_low = 0.25, .length_high = 0.7,
+                         .ratio_low = 0.3, .ratio_high = 0.65, .tip_share = 0.5, .shortest = 24.0 * s, .whole = 0.45,
                          .alternate = 0.6, .first = 0.1, .last = 0.95, .course = rill});
   return plan;
 }

@@ -164,7 +164,7 @@ class TreeDrawer {
       start.parent_point = at;
       if (start.radius > kThinner * from.radii[at]) continue;
       // What others cut short is a stub: at first only long ones are taken.
-      const double least = (attempt < kTries / 2 ? 0.6 : 0.35) * start.length;
+      const double least = (attempt < kTries / 2 ? 1.0 : 0.6) * level.whole * start.length;
       if (!grow(start, level.course, std::max({level.shortest, 7.0 * start.radius, least}), rng.child("course", attempt))) continue;
       keep_murray(parent, at, start.radius);
       std::vector<double>& floor = floors_[parent];

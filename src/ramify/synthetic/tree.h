@@ -43,6 +43,7 @@ struct LevelPlan {
   double ratio_low = 0.3, ratio_high = 0.7;     // radius to the parent's radius there
   double tip_share = 0.3;
   double shortest = 20.0;                       // px (and 7 radii); what collisions cut shorter is tried elsewhere
+  double whole = 0.6;                           // share of its length a child must reach; after some tries 0.6 of that
   double alternate = 0.6;                       // chance that a child leaves on the other side than the one before
   double first = 0.06, last = 0.95;             // where on the parent children may start, share of its length
   bool on_elders = true;                        // also on the orders before the last

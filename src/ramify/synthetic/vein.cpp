@@ -73,13 +73,13 @@ TreePlan vein_plan(Size size, const Leaf& leaf) {
                   .homing = homing / s, .home = axis};
   };
   plan.levels.push_back({.count = 26, .angle_low = 0.75, .angle_high = 0.88, .length_low = 1.0, .length_high = 1.0,
-                         .ratio_low = 0.36, .ratio_high = 0.46, .tip_share = 0.3, .shortest = 30.0 * s,
+                         .ratio_low = 0.36, .ratio_high = 0.46, .tip_share = 0.3, .shortest = 30.0 * s, .whole = 0.0,
                          .alternate = 1.0, .first = first, .last = 0.96, .irregular = 0.2, .course = curved(0.0013)});
   plan.levels.push_back({.count = 42, .angle_low = 0.95, .angle_high = 1.35, .length_low = 0.5, .length_high = 0.9,
-                         .ratio_low = 0.30, .ratio_high = 0.42, .tip_share = 0.8, .shortest = 10.0 * s,
+                         .ratio_low = 0.30, .ratio_high = 0.42, .tip_share = 0.8, .shortest = 10.0 * s, .whole = 0.0,
                          .alternate = 0.5, .first = 0.08, .last = 0.85, .on_elders = false, .course = curved(0.0)});
   plan.levels.push_back({.count = 16, .angle_low = 0.8, .angle_high = 1.3, .length_low = 0.3, .length_high = 0.9,
-                         .ratio_low = 0.8, .ratio_high = 0.95, .tip_share = 0.9, .shortest = 6.0 * s,
+                         .ratio_low = 0.8, .ratio_high = 0.95, .tip_share = 0.9, .shortest = 6.0 * s, .whole = 0.0,
                          .alternate = 0.5, .first = 0.2, .last = 0.85, .on_elders = false, .course = curved(0.0)});
   return plan;
 }

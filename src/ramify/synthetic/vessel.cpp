@@ -57,13 +57,13 @@ TreePlan vessel_plan(Size size, const Eye& eye, Rng rng) {
   const auto winding = [s](double bend) {
     return Course{.bend_length = 90.0 * s, .bend_angle = bend, .ripple_length = 22.0 * s, .ripple_angle = 0.13};
   };
-  plan.levels.push_back({.count = 16, .angle_low = 0.5, .angle_high = 1.0, .length_low = 0.3, .length_high = 0.7,
+  plan.levels.push_back({.count = 18, .angle_low = 0.5, .angle_high = 1.0, .length_low = 0.3, .length_high = 0.7,
                          .ratio_low = 0.35, .ratio_high = 0.65, .tip_share = 0.4, .shortest = 60.0 * s,
                          .alternate = 0.65, .first = 0.12, .last = 0.95, .course = winding(0.3)});
-  plan.levels.push_back({.count = 26, .angle_low = 0.5, .angle_high = 1.15, .length_low = 0.25, .length_high = 0.7,
+  plan.levels.push_back({.count = 32, .angle_low = 0.5, .angle_high = 1.15, .length_low = 0.25, .length_high = 0.7,
                          .ratio_low = 0.4, .ratio_high = 0.65, .tip_share = 0.5, .shortest = 34.0 * s,
                          .alternate = 0.6, .first = 0.12, .last = 0.95, .course = winding(0.35)});
-  plan.levels.push_back({.count = 20, .angle_low = 0.5, .angle_high = 1.2, .length_low = 0.25, .length_high = 0.7,
+  plan.levels.push_back({.count = 34, .angle_low = 0.5, .angle_high = 1.2, .length_low = 0.25, .length_high = 0.7,
                          .ratio_low = 0.5, .ratio_high = 0.75, .tip_share = 0.7, .shortest = 22.0 * s,
                          .alternate = 0.6, .first = 0.15, .last = 0.95, .course = winding(0.4)});
   return plan;
