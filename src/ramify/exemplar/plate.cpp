@@ -101,11 +101,14 @@ Reach measure_reach(const Exemplar& exemplar, const Habitat& habitat) {
 
 // What touches the hole and differs from the ground as a branch does: banks and knots that the annotation was too narrow
 // for. They would stay behind as crumbs.
-Mask with_crumbs(Mask hole, const Reach& reach) {
-  constexpr float kNear = 16.0f;  // px
+Mask with_crumbs(Mask hole, const Reach& reach, const Skeleton& skeleton) {
+  double widest = 0.0;
+  for (const Node& node : skeleton.nodes()) widest = std::max(widest, node.radius);
+  // A wide river's mouth may have been left out altogether.
+  const float near = static_cast<float>(std::clamp(2.5 * widest, 16.0, 160.0));  // px
   Mask different = hole;
   for (std::size_t i = 0; i < hole.pixels().size(); ++i) {
-    if (reach.beside.pixels()[i] < kNear && reach.apart.pixels()[i] > reach.telling) different.pixels()[i] = 255;
+    if (reach.beside.pixels()[i] < near && reach.apart.pixels()[i] > reach.telling) different.pixels()[i] = 255;
   }
   int count = 0;
   const LabelImage part = label_components(different, true, count);
@@ -132,10 +135,30 @@ Mask never_copied(const Habitat& habitat) {
   return add(habitat.outside, habitat.outliers);
 }
 
+// Landmarks and kept things (a skyline) are made of themselves: what branches hide of them is copied from the rest of them.
+void fill_from_itself(Plate& plate, const Mask& hole, const Mask& thing, Rng rng, const Monitor& monitor) {
+  if (mean_of(hole) == 0.0 || mean_of(without(thing, hole)) == 0.0) return;
+  CompletionOptions options;
+  options.tone_reach = 25.0;
+  const Completion inner = complete(plate.color, hole, invert(thing), options, rng, monitor);
+  plate.color = inner.color;
+  for (std::size_t i = 0; i < hole.pixels().size(); ++i) {
+    if (hole.pixels()[i]) plate.source.pixels()[i] = inner.source.pixels()[i];
+  }
+}
+
+void fill_kept(Plate& plate, const Exemplar& exemplar, const Habitat& habitat, Rng rng, const Monitor& monitor) {
+  const Mask kept = mask_of(habitat, RegionRole::Keep);
+  const Mask branches = branch_zone(exemplar.skeleton, kept.size(), [](double r) { return 1.5 * r + 6.0; });
+  const Mask hole = within(branches, kept);
+  fill_from_itself(plate, hole, kept, rng, monitor);
+  plate.hole = add(std::move(plate.hole), hole);
+}
+
 Plate thin_plate(const Exemplar& exemplar, const Habitat& habitat, Rng rng, const Monitor& monitor) {
   Plate plate;
   const Reach reach = measure_reach(exemplar, habitat);
-  plate.hole = without(with_crumbs(branch_holes(exemplar, habitat, 1.15, reach.margin, 2.0), reach), habitat.outside);
+  plate.hole = without(with_crumbs(branch_holes(exemplar, habitat, 1.15, reach.margin, 2.0), reach, exemplar.skeleton), habitat.outside);
   float widest = 0.0f;
   const ScalarImage depth = distance_to(invert(plate.hole));
   for (const float d : depth.pixels()) widest = std::max(widest, std::isfinite(d) ? d : 0.0f);
@@ -145,19 +168,10 @@ Plate thin_plate(const Exemplar& exemplar, const Habitat& habitat, Rng rng, cons
   const Mask landmark = mask_of(habitat, RegionRole::Landmark);
   Completion filled = complete(exemplar.photo.color, without(plate.hole, landmark), add(never_copied(habitat), plate.hole), options,
                                rng.child("ground"), monitor.stage("ground", 0.0, 0.8));
-  const Mask in_landmark = within(plate.hole, landmark);
-  if (mean_of(in_landmark) > 0.0) {
-    // A landmark is made of itself.
-    options.quilt.nearby = 0.0;
-    const Completion inner = complete(filled.color, in_landmark, add(invert(landmark), plate.hole), options,
-                                      rng.child("landmark"), monitor.stage("landmark", 0.8, 1.0));
-    filled.color = inner.color;
-    for (std::size_t i = 0; i < landmark.pixels().size(); ++i) {
-      if (in_landmark.pixels()[i]) filled.source.pixels()[i] = inner.source.pixels()[i];
-    }
-  }
   plate.color = std::move(filled.color);
   plate.source = std::move(filled.source);
+  fill_from_itself(plate, within(plate.hole, landmark), landmark, rng.child("landmark"), monitor.stage("landmark", 0.8, 0.9));
+  fill_kept(plate, exemplar, habitat, rng.child("kept"), monitor.stage("kept", 0.9, 1.0));
   return plate;
 }
 
@@ -233,6 +247,7 @@ Plate halo_plate(const Exemplar& exemplar, const Habitat& habitat, Rng rng, cons
     plate.color.pixels()[i] = share * dark + (1.0f - share) * photo.pixels()[i];
     if (own > 0.5f) plate.source.pixels()[i] = {static_cast<float>(i % photo.width()), static_cast<float>(i / photo.width())};
   }
+  fill_kept(plate, exemplar, habitat, rng.child("kept"), monitor.stage("kept", 0.9, 1.0));
   return plate;
 }
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the new branches are laid on (PICTURES 7): the plate as it is, the plate varied, or new ground of the same kind.
+//
+// A variation is planned before anything is grown, because landmarks and outside shapes move with it and roots with them.
+#pragma once
+
+#include <array>
+
+#include "ramify/compose/compose.h"
+#include "ramify/core/monitor.h"
+#include "ramify/core/random.h"
+#include "ramify/exemplar/exemplar.h"
+#include "ramify/exemplar/habitat.h"
+#include "ramify/exemplar/plate.h"
+#include "ramify/skeleton/skeleton.h"
+
+namespace ramify {
+
+struct BackgroundPlan {
+  BackgroundMode mode = BackgroundMode::Keep;  // never Auto
+  Size canvas;
+  // canvas = scale * (photo with x mirrored when flipped) + shift
+  bool flipped = false;
+  double scale = 1.0;
+  Vec2 shift = Vec2::Zero();  // px
+  // Bends of Vary: waves of the canvas, faded out near the frame, near landmarks and near what lies outside.
+  struct Wave { Vec2 frequency = Vec2::Zero(), amplitude = Vec2::Zero(); double phase = 0.0; };
+  std::array<Wave, 3> waves{};
+
+  // Where a landmark, root or outside shape of the photo lies on the canvas. px.
+  Vec2 canvas_from_photo(const Vec2& photo, int photo_width) const;
+  Vec2 photo_from_canvas(const Vec2& canvas_point, int photo_width) const;
+};
+
+struct BackgroundOptions {
+  BackgroundMode mode = BackgroundMode::Auto;
+  bool mirror = true;     // the picture may be mirrored left to right: false where light or writing gives it away
+  double bend = 0.05;     // share of the shorter side by which Vary may move things, 0 … 0.1
+  double zoom = 1.25;     // Vary shows at least 1/zoom of the photo, 1 … 2
+};
+std::vector<OptionField> describe(BackgroundOptions& options);
+
+// Share of a picture's variance that is slower than a sixteenth of the photo's width (ALGORITHMS 6.1).
+double slow_share(const ColorImage& photo, const Mask& without);
+
+// Auto: New where the photo is all texture (slow share below 0.2) without landmarks or outside shapes, else Vary.
+BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat, Size canvas,
+                               const BackgroundOptions& options, Rng rng);
+
+struct Background {
+  ColorImage color;
+  VectorImage source;  // photo pixel every pixel comes from (px); NaN where it was filled smoothly
+  Mask outside;        // canvas: what lies outside the habitat there (skyline, surround, paper)
+};
+
+// target: the new branches, on the canvas; New puts ground from beside branches beside them.
+Background make_background(const Exemplar& exemplar, const Habitat& habitat, const Plate& plate, const BackgroundPlan& plan,
+                           const Skeleton& target, Rng rng, const Monitor& monitor);
+
+}  // namespace ramify
