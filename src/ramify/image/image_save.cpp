@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "ramify/core/atomic_file.h"
 #include "ramify/core/error.h"
@@ -102,13 +103,18 @@ std::string encode_with_vips(ImageFormat format, const ColorImage& image, const 
   return format == ImageFormat::Png ? png_with_text(file, kRecipeKey, options.recipe) : file;
 }
 
+// Both files of a JPEG with a recipe are on the disk before either gets its name.
 void save(const std::string& path, const ColorImage& image, const Mask* alpha, const SaveOptions& options) {
   const std::string bytes = encode_image(path, image, alpha, options);
   AtomicFile picture(path);
   picture.write(bytes);
-  if (format_of_name(path) == ImageFormat::Jpeg && !options.recipe.empty())
-    write_file(recipe_path(path), options.recipe);
+  std::optional<AtomicFile> recipe;
+  if (format_of_name(path) == ImageFormat::Jpeg && !options.recipe.empty()) {
+    recipe.emplace(recipe_path(path));
+    recipe->write(options.recipe);
+  }
   picture.commit();
+  if (recipe) recipe->commit();
 }
 
 }  // namespace
