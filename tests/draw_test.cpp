@@ -3,9 +3,11 @@
 #include <chrono>
 #include <cmath>
 
+#include "ramify/core/json.h"
 #include "ramify/core/parallel.h"
 #include "ramify/skeleton/branches.h"
 #include "ramify/skeleton/draw.h"
+#include "ramify/skeleton/skeleton_io.h"
 #include "support/random_skeleton.h"
 
 using namespace ramify;
@@ -169,6 +171,8 @@ TEST_CASE("furcations name both branches") {
   CHECK(list[0].parent_node == 1);
   CHECK(list[0].child_node == 3);
   CHECK(list[0].position == s[1].xy());
+  const JsonDocument json(furcations_json(s), "f");
+  CHECK(json.integer(json.member(json.array(json.member(json.root(), "furcations"), 1)[0], "child")) == list[0].child_branch);
   const SkeletonMasks masks = draw_masks(s, s.size);
   CHECK(masks.branch_id(30, 6) == list[0].child_branch);
   CHECK(masks.branch_id(12, 25) == list[0].parent_branch);

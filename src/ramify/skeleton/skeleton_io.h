@@ -51,4 +51,8 @@ std::string svg_text(const Skeleton& skeleton);
 // A FeatureCollection with a LineString per branch (px + 0.5, y down) and its radii, order and parent as properties.
 std::string geojson_text(const Skeleton& skeleton);
 
+// What a training set needs beside the masks: {"format": "ramify-furcations", "version": 1, "furcations": [{"x", "y",
+// "parent", "child"}, …]} with branch ids as in the masks (draw.h).
+std::string furcations_json(const Skeleton& skeleton);
+
 }  // namespace ramify

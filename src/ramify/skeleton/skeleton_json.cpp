@@ -5,6 +5,7 @@
 #include "ramify/core/json.h"
 #include "ramify/core/options.h"
 #include "ramify/skeleton/assemble.h"
+#include "ramify/skeleton/draw.h"
 #include "ramify/skeleton/skeleton_io.h"
 
 namespace ramify {
@@ -101,6 +102,14 @@ std::string skeleton_json(const Skeleton& skeleton) {
     out += std::string(k > 0 ? "," : "") + "[" + std::to_string(a) + "," + std::to_string(b) + "]";
   }
   return out + "]}\n";
+}
+
+std::string furcations_json(const Skeleton& skeleton) {
+  Json::Array list;
+  for (const Furcation& f : list_furcations(skeleton)) {
+    list.push_back(Json::Object{{"x", f.position.x()}, {"y", f.position.y()}, {"parent", f.parent_branch}, {"child", f.child_branch}});
+  }
+  return json_text(Json::Object{{"format", "ramify-furcations"}, {"version", 1}, {"furcations", std::move(list)}});
 }
 
 }  // namespace ramify
