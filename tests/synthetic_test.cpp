@@ -130,7 +130,7 @@ TEST_CASE("annotated radii are the widths seen in the picture") {
     const BranchTree tree = branch_tree(exemplar.skeleton);
     std::vector<double> errors, sizes;
     Rng rng(7);
-    for (int i = 0; i < 4000 && errors.size() < 150; ++i) {
+    for (int i = 0; i < 3000 && errors.size() < 100; ++i) {
       const int node = rng.below(exemplar.skeleton.count());
       const double measured = half_contrast_radius(luminance, exemplar.skeleton, tree, node);
       if (measured >= 0.0) errors.push_back(measured - exemplar.skeleton[node].radius);

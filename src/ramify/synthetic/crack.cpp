@@ -120,9 +120,9 @@ Scene draw_crack(Size size, const Rng& rng, const Monitor& monitor) {
     const float soil = std::exp(-std::max(0.0f, at.distance) / static_cast<float>(3.5 * s)) * smooth_step(-0.6f, 1.4f, worn(x, y));
     const float strength = 0.5f + 0.5f * smooth_step(-1.0f, 1.0f, worn(x, y));
     const Rgb outside = (1.0f + 0.13f * lip * strength * facing - 0.10f * soil) * wall(x, y);
-    return mix(outside, inside, coverage(at.distance, 0.45f));
+    return mix(outside, inside, coverage(at.distance, 0.35f));
   });
-  scene.color = photograph(scene.color, {0.55, 0.010, 0.3, 0.45, 0.08}, rng.child("camera"));
+  scene.color = photograph(scene.color, {0.42, 0.010, 0.3, 0.45, 0.08}, rng.child("camera"));
   return scene;
 }
 

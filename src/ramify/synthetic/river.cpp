@@ -141,7 +141,7 @@ Scene draw_river(Size size, const Rng& rng, const Monitor& monitor) {
     const float mud = smooth_step(0.7f, 1.8f, sand(x, y)) * smooth_step(3.0f, 9.0f, at.radius) *
                       std::exp(-std::max(0.0f, at.distance) / static_cast<float>(1.6 * s)) * 0.6f;
     const Rgb bank = mix((1.0f - 0.16f * rim) * land(x, y), Rgb{0.46f, 0.40f, 0.29f}, mud);
-    return mix(bank, wet(x, y), coverage(at.distance, 0.5f) * visibility(at, scene.branches, s));
+    return mix(bank, wet(x, y), coverage(at.distance, 0.42f) * visibility(at, scene.branches, s));
   });
   scene.color = photograph(scene.color, {0.45, 0.008, 0.5, 0.5, 0.06}, rng.child("camera"));
   return scene;

@@ -117,11 +117,11 @@ Scene draw_vein(Size size, const Rng& rng, const Monitor& monitor) {
       out = (1.0f + (0.14f * pillow - 0.16f * flank) * blade) * out;
       const float relief = at.across / std::max(1.0f, at.radius);
       const Rgb vein = (1.0f + 0.08f * thick * relief + 0.03f * pulp(x, y)) * mix(Rgb{0.610f, 0.770f, 0.330f}, Rgb{0.760f, 0.780f, 0.400f}, thick);
-      out = mix(out, vein, coverage(at.distance, 0.5f));
+      out = mix(out, vein, coverage(at.distance, 0.42f));
     }
     return out;
   });
-  scene.color = photograph(scene.color, {0.55, 0.007, 0.5, 0.4, 0.05}, rng.child("camera"));
+  scene.color = photograph(scene.color, {0.48, 0.007, 0.5, 0.4, 0.05}, rng.child("camera"));
   return scene;
 }
 

@@ -137,7 +137,7 @@ Scene draw_vessel(Size size, const Rng& rng, const Monitor& monitor) {
       const float artery = arterial[at.branch] ? 1.0f : 0.0f;
       const Rgb passed{1.0f - (0.28f - 0.09f * artery) * strength, 1.0f - (0.57f - 0.06f * artery) * strength,
                        1.0f - 0.42f * strength};
-      const float inside = coverage(at.distance, 0.55f) * (0.82f + 0.18f * round);
+      const float inside = coverage(at.distance, 0.45f) * (0.82f + 0.18f * round);
       color = mix(color, color * passed, inside);
       const float reflex = std::exp(-0.5f * std::pow(at.across / (0.22f * at.radius), 2.0f));
       color = color + ((0.06f + 0.07f * artery) * reflex * smooth_step(2.2f, 4.0f, at.radius)) * Rgb{1.0f, 0.75f, 0.6f};
@@ -145,7 +145,7 @@ Scene draw_vessel(Size size, const Rng& rng, const Monitor& monitor) {
     return mix(Rgb{0.012f, 0.008f, 0.008f}, light * color, seen);
   });
   scene.regions.push_back(field_outside(size, eye));
-  scene.color = photograph(scene.color, {0.6, 0.009, 0.55, 0.5, 0.0}, rng.child("camera"));
+  scene.color = photograph(scene.color, {0.5, 0.009, 0.55, 0.5, 0.0}, rng.child("camera"));
   return scene;
 }
 
