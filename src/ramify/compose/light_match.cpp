@@ -16,6 +16,7 @@ constexpr double kEarlyWeight = 0.15;   // a child's start likes the middle of a
 constexpr double kFrameCost = 0.3;      // the disc leaves the photo
 constexpr double kHueWeight = 0.5;
 constexpr double kMisfitWeight = 6.0;   // of widths that differ by more than the strictest choice allows
+constexpr double kLeastGain = 0.4, kMostGain = 1.6;
 constexpr double kNoise = 0.02;
 constexpr double kBanned = 1e3;
 
@@ -72,6 +73,12 @@ double level_cost(const Vec3& level, const Vec3& wanted) {
   return brightness * brightness + kHueWeight * hue;
 }
 
+// Evens out brightness along a branch, within what a source can stand.
+double level_gain(const Vec3& level, const Vec3& wanted) {
+  if (wanted.sum() <= 0.0 || level.sum() <= 0.0) return 1.0;
+  return std::clamp(wanted.mean() / level.mean(), kLeastGain, kMostGain);
+}
+
 // The part of the cost that needs no shapes.
 double plain_cost(const LightSource& source, const SourceSpot& spot, const Goal& goal, const Vec2& place, double leave_out) {
   const Strand& strand = source.strands[spot.strand];
@@ -98,7 +105,10 @@ LightMatch rate(const LightSource& source, int index, const Goal& goal) {
     shape[k] = p;
     along += p.dot(goal.shape[k]), across += cross(p, goal.shape[k]);
   }
-  LightMatch match{index, std::atan2(across, along), 0.0};
+  LightMatch match;
+  match.spot = index;
+  match.angle = std::atan2(across, along);
+  match.gain = level_gain(strand.level[spot.sample], goal.level);
   Eigen::Matrix2d turn;
   turn << std::cos(match.angle), -std::sin(match.angle), std::sin(match.angle), std::cos(match.angle);
   double misfit = 0.0;

@@ -12,6 +12,7 @@ namespace ramify {
 struct LightMatch {
   int spot = kNone;
   double angle = 0.0;  // rad; the source, mirrored if the spot says so, is turned by this about its place
+  double gain = 1.0;   // brings the source's level near the one the branch has there
   double cost = 0.0;
 };
 

@@ -202,7 +202,12 @@ LightPatch cut_patch(const LightSource& source, const LightLayer& layer, const P
   for (Rgb& v : patch.value) v = {std::max(v.r, floor), std::max(v.g, floor), std::max(v.b, floor)};
   patch.cost = match.cost + flaw_cost(frame, foreign, patch);
   mirror_out(frame, foreign, patch);
-  for (std::size_t i = 0; i < patch.value.size(); ++i) patch.value[i] = frame.fade[i] * patch.value[i];
+  const auto gain = static_cast<float>(match.gain);
+  for (std::size_t i = 0; i < patch.value.size(); ++i) {
+    Rgb& v = patch.value[i];
+    if (gain < 1.0f) v = {std::min(v.r, 1.0f), std::min(v.g, 1.0f), std::min(v.b, 1.0f)};  // dim what is seen, not what burnt out
+    v = gain * frame.fade[i] * v;
+  }
   return patch;
 }
 

@@ -19,6 +19,9 @@ constexpr double kThin = 3.2;          // px; below, a bright surround shows mor
 constexpr double kBrightHalo = 0.06;   // linear light
 constexpr double kHaloCost = 8.0;
 constexpr double kOddHue = 1.3;         // log ratio
+constexpr double kLeastOfParent = 0.75; // a child is dimmed to its parent's level, but no further than this
+constexpr double kBadTemplate = 0.2;    // cost of a template strand that is not fit to be copied
+constexpr float kWhite = 1.0f;          // linear light; for absorbing layers a transmission of 0.37, dark enough
 constexpr int kClean = 4;              // samples on both sides that must be good
 
 double strength(const Rgb& v) { return (v.r + v.g + v.b) / 3.0; }
@@ -51,13 +54,15 @@ void recentre(Strand& strand, int own, const LightLayer& layer, const LabelImage
   strand.normals = line_normals(strand.points);
 }
 
-// The strongest of three samples across the centre line: a sub-pixel shift must not read as darkness.
+// The strongest of three samples across the centre line: a sub-pixel shift must not read as darkness. Beyond white all
+// light looks alike.
 std::vector<Vec3> measure_level(const Strand& strand, const LightLayer& layer) {
   std::vector<Vec3> level(strand.points.size(), Vec3::Zero());
   for (int t = 0; t < strand.count(); ++t) {
     for (const double u : {-1.0, 0.0, 1.0}) {
       const Rgb v = sample_bilinear(layer.value, strand.points[t] + u * strand.normals[t]);
-      if (v.r + v.g + v.b > level[t].sum()) level[t] = {v.r, v.g, v.b};
+      const Vec3 seen(std::min(v.r, kWhite), std::min(v.g, kWhite), std::min(v.b, kWhite));
+      if (seen.sum() > level[t].sum()) level[t] = seen;
     }
   }
   return smooth(level, 4.0);
@@ -155,9 +160,9 @@ int template_strand(const Strand& target, const LightSource& source, Rng& rng) {
     const Strand& s = source.strands[k];
     const double noise = 0.1 * rng.uniform();
     const auto good = std::count(s.bad.begin() + s.first, s.bad.end(), 0);
-    if (2 * good < s.count() - s.first) continue;
+    const double share_bad = 1.0 - static_cast<double>(good) / (s.count() - s.first);
     const double cost = std::abs(std::log(mean(s.radii) / r)) +
-                        0.5 * std::abs(std::log((s.count() - s.first) / length)) + noise;
+                        0.5 * std::abs(std::log((s.count() - s.first) / length)) + kBadTemplate * share_bad + noise;
     if (cost < best_cost) best_cost = cost, best = k;
   }
   return best;
@@ -174,8 +179,8 @@ LightSource make_light_source(std::vector<Strand> strands, const LightLayer& lay
     for (int pass = 0; pass < 2; ++pass) recentre(strands[k], k + 1, layer, source.labels);
     strands[k].level = measure_level(strands[k], layer);
   });
-  const double weakest = rules.weak * median_level(strands);
-  for (Strand& s : strands) mark_bad(s, weakest, unusable);
+  source.weakest = rules.weak * median_level(strands);
+  for (Strand& s : strands) mark_bad(s, source.weakest, unusable);
   mark_odd_hues(strands);
   source.labels = strand_labels(strands, size, 1.2, 2.0);
   Mask covered = strand_mask(strands, size, 1.35, 2.5);
@@ -212,10 +217,12 @@ void assign_levels(std::vector<Strand>& targets, const LightSource& source, Rng 
       target.level[t] = s.level[s.first + static_cast<int>(std::lround(u * (s.count() - 1 - s.first)))];
     }
     target.level = smooth(target.level, 6.0);
+    for (Vec3& v : target.level) v *= std::max(1.0, source.weakest / std::max(v.mean(), 1e-6));
     if (target.parent == kNone) continue;
     const double most = targets[target.parent].level[target.parent_sample].mean();
     const double start = target.level[target.first].mean();
-    if (most > 0.0 && start > most) for (Vec3& v : target.level) v *= most / start;
+    const double share = std::max(kLeastOfParent, most / std::max(start, 1e-6));
+    if (share < 1.0) for (Vec3& v : target.level) v *= share;
   }
 }
 

@@ -23,6 +23,7 @@ struct LightSource {
   LabelImage labels;              // 1 + strand, kForeignLabel on unannotated branches, 0 elsewhere
   ScalarImage cover;              // 0..1, softened: branches of any kind
   std::vector<SourceSpot> spots;
+  double weakest = 0.0;           // level below which a stretch of branch is not copied
 
   const Strand& strand_of(const SourceSpot& spot) const { return strands[spot.strand]; }
   Vec2 position(const SourceSpot& spot) const { return strands[spot.strand].points[spot.sample]; }

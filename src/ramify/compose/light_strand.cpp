@@ -14,6 +14,7 @@ namespace {
 constexpr double kPositionSigma = 2.0;  // px, PICTURES 12.3: the source's and the target's zigzag are smoothed alike
 constexpr double kRadiusSigma = 4.0;    // px
 constexpr int kRadiusMedian = 6;        // samples on both sides: a width that jumps up and back is a measuring fault
+constexpr double kFold = 0.45;           // chord / arc below which a stretch folds back on itself
 constexpr double kFrameMargin = 8.0;    // px
 constexpr int kShortest = 3;            // px a branch must show outside its parent
 
@@ -45,6 +46,27 @@ std::vector<T> smoothed(const std::vector<T>& values, double sigma, const T& zer
   for (int i = 0; i < n; ++i) {
     for (int k = -reach; k <= reach; ++k) out[i] += kernel[k + reach] / sum * values[std::clamp(i + k, 0, n - 1)];
   }
+  return out;
+}
+
+// Without detours that lead back within the branch's own width: such folds come from tracing blots and knots, cannot be
+// seen in the picture, and would wind the copied light into curls.
+Polyline unfolded(const Polyline& line) {
+  Polyline out;
+  const std::size_t n = line.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    out.points.push_back(line.points[i]);
+    out.radii.push_back(line.radii[i]);
+    double arc = 0.0;
+    std::size_t skip = i;
+    for (std::size_t j = i + 1; j < n; ++j) {
+      arc += (line.points[j] - line.points[j - 1]).norm();
+      if (arc > 4.0 * line.radii[i] + 10.0) break;
+      if (arc > 3.0 && (line.points[j] - line.points[i]).norm() < kFold * arc) skip = j;
+    }
+    i = std::max(i, skip > i ? skip - 1 : i);
+  }
+  if (out.points.size() < 2) return line;
   return out;
 }
 
@@ -167,7 +189,7 @@ std::vector<Strand> make_strands(const Skeleton& skeleton) {
     const Polyline line = branch_polyline(skeleton, branch);
     if (line.points.size() < 2) continue;
     Strand strand;
-    resample(line, strand);
+    resample(unfolded(line), strand);
     strand.points = smooth_points(strand.points, kPositionSigma);
     strand.radii = smooth(median(strand.radii, kRadiusMedian), kRadiusSigma);
     if (branch.parent != kNone) {
