@@ -100,16 +100,19 @@ int choose_root(const Forest& f, const std::vector<int>& nodes, Size size, const
     }
     if ((f.graph.nodes[nearest] - *options.root).norm() < 0.05 * std::max(size.width, size.height)) return nearest;
   }
-  int best = nodes.front();
+  // True ends only; where a loop was cut the tree ends as well, but nothing starts there. A component of loops alone may
+  // start anywhere.
+  int best = kNone;
   double best_score = -1e300;
-  for (const int n : nodes) {
-    int tree_edges = 0;
-    for (const int e : f.incident[n]) tree_edges += f.in_tree[e];
-    if (tree_edges != 1) continue;
-    const double score = root_score(f, n, size, options.frame_margin);
-    if (score > best_score) {
-      best_score = score;
-      best = n;
+  for (const bool ends_only : {true, false}) {
+    for (const int n : nodes) {
+      if (best != kNone && !ends_only) break;
+      if (ends_only && f.incident[n].size() != 1) continue;
+      const double score = root_score(f, n, size, options.frame_margin);
+      if (score > best_score) {
+        best_score = score;
+        best = n;
+      }
     }
   }
   return best;

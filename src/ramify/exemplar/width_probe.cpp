@@ -11,6 +11,7 @@ namespace ramify {
 namespace {
 
 constexpr double kStep = 0.25;         // px between samples of a profile
+constexpr double kSampling = 0.5;      // px, blur by pixel area and bilinear reading: sqrt(1/12 + 1/6)
 constexpr int kCandidates = 6;         // edges kept per side
 constexpr double kWeakest = 0.2;       // of the profile's strongest edge
 constexpr double kDummyCost = -0.2;    // cost of "no pair here"; a clear pair costs about -2
@@ -209,18 +210,20 @@ ProbedLine probe_once(const ScalarImage& picture, const std::vector<Vec2>& line,
   }
   const double spacing = n > 1 ? std::max(0.5, (line[1] - line[0]).norm()) : 1.0;
   const std::vector<Pair> pairs = best_pairs(choices, spacing);
-  std::vector<double> radii, shifts;
+  std::vector<double> apparent, shifts;
   for (int i = 0; i < n; ++i) {
-    const double sigma = std::hypot(options.blur, std::max(1.0, 0.15 * prior[i]));
-    const double apparent = 0.5 * (pairs[i].right - pairs[i].left);
-    radii.push_back(options.glow || pairs[i].strength == 0.0 ? apparent : bar_radius(apparent, sigma));
+    apparent.push_back(0.5 * (pairs[i].right - pairs[i].left));
     shifts.push_back(std::clamp(0.5 * (pairs[i].right + pairs[i].left), -0.5 * prior[i] - 1.0, 0.5 * prior[i] + 1.0));
   }
-  bridge_gaps(radii, pairs);
+  bridge_gaps(apparent, pairs);
   bridge_gaps(shifts, pairs);
   const double sigma = std::max(2.0, 0.5 * mean_prior);
-  radii = smoothed(running_median(radii, 3), sigma);
   shifts = smoothed(running_median(shifts, 3), sigma);
+  // What blur adds to thin bars is taken off last: the correction is steep, so noise must be gone before.
+  std::vector<double> radii = smoothed(running_median(apparent, 3), options.glow ? sigma : std::max(4.0, sigma));
+  for (int i = 0; i < n && !options.glow; ++i) {
+    radii[i] = bar_radius(radii[i], std::hypot(options.blur, std::max(1.0, 0.15 * prior[i]), kSampling));
+  }
   ProbedLine out;
   for (int i = 0; i < n; ++i) {
     out.points.push_back(line[i] + shifts[i] * normals[i]);

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+
+#include "ramify/core/error.h"
+#include "ramify/core/random.h"
+#include "ramify/exemplar/trace.h"
+#include "ramify/exemplar/width_probe.h"
+#include "ramify/image/filter.h"
+#include "ramify/image/image_io.h"
+#include "ramify/image/ridge.h"
+
+using namespace ramify;
+
+namespace {
+
+double median(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (p - a - t * (b - a)).norm();
+}
+
+// A truth: polylines with a radius each, drawn dark on light with area coverage, blurred, with noise.
+struct Stroke {
+  std::vector<Vec2> points;
+  double radius = 3.0;
+};
+
+ScalarImage drawn(const std::vector<Stroke>& strokes, Size size, double blur, double noise, std::uint64_t seed) {
+  ScalarImage image(size, 0.7f);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      double inside = 0.0;
+      for (int k = 0; k < 16; ++k) {
+        const Vec2 p(x + (k % 4 - 1.5) / 4.0, y + (k / 4 - 1.5) / 4.0);
+        bool hit = false;
+        for (const Stroke& s : strokes) {
+          for (std::size_t i = 1; i < s.points.size() && !hit; ++i) {
+            hit = distance_to_segment(p, s.points[i - 1], s.points[i]) <= s.radius;
+          }
+        }
+        inside += hit / 16.0;
+      }
+      image(x, y) = static_cast<float>(0.7 - 0.4 * inside);
+    }
+  }
+  image = gaussian_blur(image, blur);
+  Rng rng = Rng(seed).child("noise");
+  for (float& v : image.pixels()) v += static_cast<float>(noise * rng.normal());
+  return image;
+}
+
+Photo grey_photo(const ScalarImage& image) {
+  Photo photo;
+  photo.name = "synthetic";
+  photo.color = ColorImage(image.size());
+  for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+    const float v = image.pixels()[i];
+    photo.color.pixels()[i] = {v, v, v};
+  }
+  return photo;
+}
+
+double distance_to_strokes(const Vec2& p, const std::vector<Stroke>& strokes, double* radius = nullptr) {
+  double best = 1e9;
+  for (const Stroke& s : strokes) {
+    for (std::size_t i = 1; i < s.points.size(); ++i) {
+      const double d = distance_to_segment(p, s.points[i - 1], s.points[i]);
+      if (d < best) {
+        best = d;
+        if (radius) *radius = s.radius;
+      }
+    }
+  }
+  return best;
+}
+
+std::vector<Vec2> dense_points(const Annotation& a) {
+  const Skeleton s = skeleton_from_annotation(a);
+  std::vector<Vec2> points;
+  for (const Node& n : s.nodes()) {
+    if (n.parent == kNone) continue;
+    const Vec2 from = s[n.parent].xy(), way = n.xy() - from;
+    for (double t = 0.0; t < way.norm(); t += 1.0) points.push_back(from + t / way.norm() * way);
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("the ridge filter answers strongest at the scale of the bar and along it") {
+  for (const double w : {1.5, 3.0, 6.0}) {
+    const ScalarImage image = drawn({{{Vec2(-50, 60), Vec2(200, 60)}, w}}, {120, 120}, 0.3, 0.0, 1);
+    const RidgeField field = ridge_field(image, {false, 0.7, 14.0});
+    CHECK(field.sigma(60, 60) / w > 0.65);
+    CHECK(field.sigma(60, 60) / w < 1.5);
+    CHECK(std::abs(field.tangent(60, 60).x()) > 0.99);
+    // 2 w / (sigma sqrt(2 pi)) exp(-1/2) at sigma = w, times the contrast of 0.4.
+    CHECK(field.sato(60, 60) == Approx(0.4 * 0.4839).margin(0.02));
+    CHECK(field.strength(60, 60) > 5.0f * field.strength(60, 60 + static_cast<int>(4 * w)));
+  }
+}
+
+TEST_CASE("a step edge is hardly a ridge") {
+  ScalarImage image(120, 60, 0.3f);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 60; x < 120; ++x) image(x, y) = 0.7f;
+  }
+  const RidgeField edge = ridge_field(image, {true, 1.0, 6.0});
+  for (int x = 40; x < 80; ++x) CHECK(edge.strength(x, 30) < 0.1f * 0.4f);
+}
+
+TEST_CASE("bars from 1.5 to 40 px are measured to a quarter pixel and three percent") {
+  for (const double r : {1.5, 2.0, 3.0, 5.0, 9.0, 16.0, 40.0}) {
+    for (const double blur : {0.5, 1.0, 2.0}) {
+      const int height = static_cast<int>(12 * r) + 40;
+      const Vec2 a(-20.0, height / 2.0 - 6.3), b(260.0, height / 2.0 + 7.1);
+      const ScalarImage image = drawn({{{a, b}, r}}, {240, height}, blur, 10.0 / 255.0, 7);
+      std::vector<Vec2> line;
+      std::vector<double> prior;
+      const Vec2 along = (b - a).normalized();
+      for (double t = 40.0; t < 240.0; t += 1.0) {  // off the middle and a quarter too thick
+        line.push_back(a + t * along + 0.2 * r * perpendicular(along));
+        prior.push_back(1.25 * r);
+      }
+      WidthProbeOptions options;
+      options.bright = false;
+      options.blur = blur;
+      const ProbedLine probed = probe_widths(image, line, prior, options);
+      std::vector<double> errors, offsets;
+      for (std::size_t i = 20; i + 20 < line.size(); ++i) {
+        errors.push_back(std::abs(probed.radii[i] - r));
+        offsets.push_back(distance_to_segment(probed.points[i], a, b));
+      }
+      INFO("r " << r << " blur " << blur << " measured " << median(probed.radii) << " error " << median(errors) << " offset " << median(offsets));
+      // A bar thinner than its blur shows its width only in the last percent of its profile.
+      CHECK(median(errors) <= (blur > 1.3 * r ? 0.45 : 0.25 + 0.03 * r));
+      CHECK(median(offsets) <= 0.5 + 0.02 * r);
+    }
+  }
+}
+
+TEST_CASE("the live wire follows a noisy branch within 0.6 px") {
+  std::vector<Stroke> truth{{{}, 2.5}};
+  for (double x = -10; x <= 260; x += 4) truth[0].points.emplace_back(x, 80 + 22 * std::sin(0.045 * x) + 6 * std::sin(0.13 * x));
+  const Photo photo = grey_photo(drawn(truth, {250, 160}, 0.8, 8.0 / 255.0, 3));
+  TraceOptions options;
+  options.polarity = TracePolarity::Dark;
+  options.mode = TraceMode::Ridge;
+  options.through = "12,100 120,65 238,59";
+  const Annotation a = trace_photo(photo, options);
+  std::vector<double> away;
+  for (const Vec2& p : dense_points(a)) away.push_back(distance_to_strokes(p, truth));
+  double mean = 0.0;
+  for (const double d : away) mean += d / static_cast<double>(away.size());
+  std::sort(away.begin(), away.end());
+  CHECK(away.size() > 220);
+  CHECK(mean <= 0.6);
+  CHECK(away[away.size() * 95 / 100] <= 1.5);
+}
+
+TEST_CASE("a synthetic tree is traced with its radii") {
+  const std::vector<Stroke> truth{{{Vec2(-10, 200), Vec2(120, 190), Vec2(260, 210), Vec2(330, 205)}, 6.0},
+                                  {{Vec2(120, 190), Vec2(190, 110), Vec2(230, 40)}, 3.0},
+                                  {{Vec2(190, 110), Vec2(290, 90)}, 2.0},
+                                  {{Vec2(200, 200), Vec2(250, 270), Vec2(310, 300)}, 2.5}};
+  const Photo photo = grey_photo(drawn(truth, {360, 320}, 0.8, 6.0 / 255.0, 5));
+  const Annotation a = trace_photo(photo, {});
+  int right = 0, found = 0;
+  const std::vector<Vec2> points = dense_points(a);
+  for (const Vec2& p : points) {
+    double r = 0.0;
+    right += distance_to_strokes(p, truth, &r) <= std::max(2.0, 0.5 * r);
+  }
+  int wanted = 0;
+  for (const Stroke& s : truth) {
+    for (std::size_t i = 1; i < s.points.size(); ++i) {
+      for (double t = 0.0; t < 1.0; t += 1.0 / (s.points[i] - s.points[i - 1]).norm()) {
+        const Vec2 q = s.points[i - 1] + t * (s.points[i] - s.points[i - 1]);
+        if (q.x() < 0) continue;
+        ++wanted;
+        found += std::any_of(points.begin(), points.end(), [&](const Vec2& p) { return (p - q).norm() <= std::max(2.0, 0.5 * s.radius); });
+      }
+    }
+  }
+  const double precision = 1.0 * right / static_cast<double>(points.size()), recall = 1.0 * found / wanted;
+  CAPTURE(precision, recall);
+  CHECK(2 * precision * recall / (precision + recall) >= 0.95);
+  std::vector<double> errors;
+  for (const AnnotatedBranch& b : a.branches) {
+    for (std::size_t i = 0; i < b.points.size(); ++i) {
+      double r = 0.0;
+      if (distance_to_strokes(b.points[i], truth, &r) < 2.0) errors.push_back(std::abs(b.radii[i] - r) - 0.03 * r);
+    }
+  }
+  CHECK(median(errors) <= 0.25);
+  CHECK(a.branches[0].leaves_frame.value_or(false) == false);  // from the frame inwards
+  CHECK(a.branches[0].points.front().x() < 8.0);
+  CHECK(a.branches[0].radii.front() > 4.5);
+}
+
+TEST_CASE("nothing to trace is said so") {
+  Photo photo;
+  photo.name = "flat.png";
+  photo.color = ColorImage(80, 60, Rgb{0.5f, 0.5f, 0.5f});
+  CHECK_THROWS_AS(trace_photo(photo, {}), InputError);
+  for (Rgb& c : photo.color.pixels()) c = Rgb{};
+  CHECK_THROWS_AS(trace_photo(photo, {}), InputError);
+  TraceOptions options;
+  options.through = "1,2 x,3";
+  CHECK_THROWS_AS(trace_photo(photo, options), OptionError);
+  options.through = "";
+  options.regions = "sky: 1,1 2,2 3,3";
+  CHECK_THROWS_AS(trace_photo(photo, options), OptionError);
+}
+
+TEST_CASE("committed strokes agree with the masks people drew") {
+  const char* folder = std::getenv("RAMIFY_PHOTOS");
+  if (!folder) {
+    WARN("RAMIFY_PHOTOS is not set: skipped");
+    return;
+  }
+  for (const std::string name : {"crack_uav75_DSC00674h", "roots_alfalfa_b"}) {
+    const Mask truth = load_mask(std::string(folder) + "/" + name + "_mask.png");
+    const Annotation a = load_annotation(std::string(RAMIFY_EXEMPLARS) + "/" + name + ".ramify.json");
+    const ScalarImage away = distance_to(truth);
+    int right = 0, found = 0, wanted = 0;
+    const std::vector<Vec2> points = dense_points(a);
+    Mask near(truth.size());
+    for (const Vec2& p : points) {
+      const int x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
+      right += away.clamped(x, y) <= 2.0f;
+      if (near.contains(x, y)) near(x, y) = 255;
+    }
+    const ScalarImage reached = distance_to(near);
+    for (std::size_t i = 0; i < truth.pixels().size(); ++i) {
+      if (truth.pixels()[i] < 128) continue;
+      ++wanted;
+      found += reached.pixels()[i] <= 3.0f;
+    }
+    const double precision = 1.0 * right / static_cast<double>(points.size()), recall = 1.0 * found / wanted;
+    INFO(name << " precision " << precision << " recall " << recall);
+    CHECK(2 * precision * recall / (precision + recall) >= 0.75);
+  }
+}
