@@ -4,12 +4,15 @@
 #include <cmath>
 
 #include "ramify/exemplar/line_finder.h"
+#include "ramify/image/filter.h"
 #include "ramify/skeleton/thickness.h"
 
 namespace ramify {
 namespace {
 
 constexpr double kNoiseFactor = 8.0;  // a line starts at this many times the median response
+constexpr double kLargestShare = 0.4;  // of the picture: thicker classes are background
+constexpr double kLongest = 10.0;      // smallest area of a thick branch over its largest radius squared (a disc has 3.1)
 constexpr double kLowShare = 0.35;    // and goes on at this share of it (ALGORITHMS 3.3-3)
 
 double median_positive(const ScalarImage& image, const Mask& excluded) {
@@ -74,41 +77,25 @@ float otsu_threshold(const ScalarImage& image, const Mask& excluded) {
   return bottom + span * (static_cast<float>(cut) + 1.0f) / 256.0f;
 }
 
-Mask inverted(const Mask& mask) {
+// Components that can be branches: long for their width, and not most of the picture. Clouds, corners outside a round
+// field and sheets of paper are neither.
+Mask without_blobs(const Mask& mask) {
+  int count = 0;
+  const LabelImage label = label_components(mask, true, count);
+  const ScalarImage depth = distance_inside(mask);
+  std::vector<double> area(static_cast<std::size_t>(count), 0.0), deepest(area);
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    const int k = label.pixels()[i];
+    if (k == kNone) continue;
+    area[k] += 1.0;
+    deepest[k] = std::max(deepest[k], static_cast<double>(depth.pixels()[i]));
+  }
   Mask out(mask.size());
-  for (std::size_t i = 0; i < mask.pixels().size(); ++i) out.pixels()[i] = mask.pixels()[i] ? 0 : 255;
-  return out;
-}
-
-// Pixels within `radius` of the mask.
-Mask grown(const Mask& mask, double radius) {
-  const ScalarImage away = distance_inside(inverted(mask));
-  Mask out(mask.size());
-  for (std::size_t i = 0; i < mask.pixels().size(); ++i) out.pixels()[i] = away.pixels()[i] <= radius ? 255 : 0;
-  return out;
-}
-
-// Components (4-connected) of `mask` with fewer than `area` pixels are removed.
-Mask without_specks(const Mask& mask, double area) {
-  Mask out = mask;
-  Mask seen(mask.size());
-  for (int y = 0; y < mask.height(); ++y) {
-    for (int x = 0; x < mask.width(); ++x) {
-      if (!mask(x, y) || seen(x, y)) continue;
-      std::vector<std::pair<int, int>> piece{{x, y}};
-      seen(x, y) = 255;
-      for (std::size_t i = 0; i < piece.size(); ++i) {
-        const auto [px, py] = piece[i];
-        for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-          const int u = px + dx, v = py + dy;
-          if (!mask.contains(u, v) || !mask(u, v) || seen(u, v)) continue;
-          seen(u, v) = 255;
-          piece.emplace_back(u, v);
-        }
-      }
-      if (static_cast<double>(piece.size()) >= area) continue;
-      for (const auto& [px, py] : piece) out(px, py) = 0;
-    }
+  const double whole = static_cast<double>(mask.pixels().size());
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    const int k = label.pixels()[i];
+    if (k == kNone || area[k] > kLargestShare * whole || area[k] < kLongest * deepest[k] * deepest[k]) continue;
+    out.pixels()[i] = 255;
   }
   return out;
 }
@@ -121,14 +108,14 @@ Mask thick_branches(const ScalarImage& picture, bool bright, double core, const 
     const bool inside = (picture.pixels()[i] > cut) == bright && (excluded.empty() || !excluded.pixels()[i]);
     mask.pixels()[i] = inside ? 255 : 0;
   }
-  mask = inverted(without_specks(inverted(mask), 4.0 * core * core));  // fill holes < (2 r)^2
-  const ScalarImage depth = distance_inside(mask);
-  Mask kernel(mask.size());
-  for (std::size_t i = 0; i < mask.pixels().size(); ++i) kernel.pixels()[i] = depth.pixels()[i] >= core ? 255 : 0;
-  kernel = without_specks(kernel, 4.0 * core);
-  Mask opened = grown(kernel, core + 1.0);
-  for (std::size_t i = 0; i < mask.pixels().size(); ++i) opened.pixels()[i] = opened.pixels()[i] && mask.pixels()[i] ? 255 : 0;
-  return opened;
+  mask = fill_small_holes(mask, static_cast<int>(4.0 * core * core));
+  const Mask kernel = drop_small_components(threshold(distance_inside(mask), static_cast<float>(core)),
+                                            static_cast<int>(4.0 * core));
+  Mask opened = dilate(kernel, core + 1.0);
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    opened.pixels()[i] = opened.pixels()[i] && mask.pixels()[i] ? 255 : 0;
+  }
+  return without_blobs(opened);
 }
 
 }  // namespace
