@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ramify/compose/paper_warp.h"
 #include "ramify/compose/paste.h"
 #include "ramify/core/parallel.h"
 #include "ramify/geometry/registration.h"
@@ -288,4 +289,71 @@ TEST_CASE("branches too wide for one disc are dressed bank by bank") {
   }
   CHECK(dark_inside > 0.97 * inside);
   CHECK(dark_outside < 0.005 * inside);
+}
+
+TEST_CASE("blending fragment after fragment drifts unless free rims are held") {
+  // Paper 002, figure 5: a photo whose brightness rises from left to right; each fragment takes the last one's colours.
+  Exemplar exemplar = drawn_exemplar(wavy_skeleton({420, 160}, 3.0), 12);
+  for (int y = 0; y < 160; ++y) {
+    for (int x = 0; x < 420; ++x) {
+      const float shade = 0.3f * static_cast<float>(x) / 420.0f - 0.15f;
+      exemplar.photo.color(x, y) = exemplar.photo.color(x, y) + Rgb{shade, shade, shade};
+    }
+  }
+  PlacementOptions options;
+  options.leave_out = 3.0;
+  auto drift = [&](bool paper, bool free_rims) {
+    PasteOptions paste;
+    paste.paper_blend = paper;
+    paste.free_rims = free_rims;
+    const Dressed d = dress(exemplar, exemplar.skeleton, options, paste);
+    double sum = 0.0;
+    int count = 0;
+    for (int y = 0; y < 160; ++y) {
+      for (int x = 0; x < 420; ++x) {
+        if (d.result.owner(x, y) == kNone || d.plan.field.signed_distance(x, y) < 1.5f) continue;
+        sum += std::abs(d.result.color(x, y).g - kGround.g);
+        ++count;
+      }
+    }
+    return sum / count;
+  };
+  const double plain = drift(true, true), held = drift(true, false), global = drift(false, false);
+  CHECK(plain > 1.15 * held);
+  CHECK(global < held);
+}
+
+TEST_CASE("the paper's own steps cover the branches too") {
+  const Exemplar exemplar = drawn_exemplar(wavy_skeleton({300, 200}, 3.5), 13);
+  const Skeleton target = turned(exemplar.skeleton, 0.5, {320, 320});
+  TargetOptions targets;
+  targets.spacing = 0.75;
+  targets.parent_first = true;
+  targets.fragment.paper_spacing = true;
+  PlacementOptions options;
+  options.paper_greedy = options.paper_warp = true;
+  PasteOptions paste;
+  paste.paper_order = paste.paper_cut = paste.paper_blend = true;
+  const FragmentLibrary library = make_fragment_library(exemplar, {}, {}, targets.fragment);
+  const FragmentLibrary dense = make_fragment_library(exemplar, {}, {}, {});
+  CHECK(library.fragments.size() * 3 < dense.fragments.size());
+  const ColorImage ground = grained_ground(target.size, 78);
+  const PlacementPlan plan = place_fragments(library, target, ground, targets, options, Rng(1), Monitor());
+  const PasteResult result = paste_fragments(exemplar.photo.color, library, plan, ground, paste, Monitor());
+  int inside = 0, dark = 0;
+  for (int y = 0; y < 320; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      if (plan.field.signed_distance(x, y) > -1.5f) continue;
+      ++inside;
+      dark += result.color(x, y).g < 0.33f;
+    }
+  }
+  CHECK(dark > 0.85 * inside);
+}
+
+TEST_CASE("the paper's displacement field passes through its constraints") {
+  WarpGrid grid{Vec2(-20, -20), 2.0, 21, 21, {}};
+  const std::vector<Vec2> places = {{-10, -3}, {-4, 1}, {3, 2}, {11, -2}}, wanted = {{1, 0}, {2, -1}, {0, 1}, {-1, 2}};
+  grid.values = laplacian_displacements(grid, places, wanted);
+  for (std::size_t i = 0; i < places.size(); ++i) CHECK((grid(places[i]) - wanted[i]).norm() < 0.02);
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "ramify/compose/paper_warp.h"
+
 namespace ramify {
 namespace {
 
@@ -49,9 +51,23 @@ Rows constraint_rows(const Fragment& source, const Fragment& target, const Candi
   return rows;
 }
 
+// The centre line alone, as paper 002 has it.
+std::vector<Vec2> paper_displacements(const WarpGrid& warp, const Fragment& source, const Fragment& target,
+                                      const Candidate& candidate) {
+  std::vector<Vec2> places, differences;
+  for (std::size_t l = 0; l < target.shape.size(); ++l) {
+    const Vec2& offset = target.shape[l].offset;
+    if (offset.norm() > target.radius) continue;
+    places.push_back(target.centre + offset);
+    differences.push_back(source.shape[paired_sample(source, candidate.mirrored, l)].offset - photo_offset(candidate, offset));
+  }
+  return laplacian_displacements(warp, places, differences);
+}
+
 }  // namespace
 
-WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const Candidate& candidate, bool bend) {
+WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const Candidate& candidate,
+                       const PlacementOptions& options) {
   const double reach = target.radius + kMargin;
   WarpGrid warp;
   warp.step = std::clamp(target.radius / 8.0, 2.0, 6.0);
@@ -59,7 +75,7 @@ WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const Can
   warp.columns = warp.rows = static_cast<int>(std::ceil(2.0 * reach / warp.step)) + 1;
   std::vector<Vec2> rigid, extra;
   std::optional<ThinPlate> plate;
-  if (bend) {
+  if (options.bend && !options.paper_warp) {
     const Rows rows = constraint_rows(source, target, candidate);
     plate.emplace(rows.canvas, rows.difference, target.radius, kSmoothing);
   }
@@ -70,6 +86,7 @@ WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const Can
       extra.push_back(plate ? (*plate)(offset) : Vec2(Vec2::Zero()));
     }
   }
+  if (options.paper_warp) extra = paper_displacements(warp, source, target, candidate);
   const double area = (candidate.mirrored ? -1.0 : 1.0) / (candidate.scale * candidate.scale);
   double share = 1.0;
   for (int attempt = 0; attempt < 5; ++attempt, share *= 0.5) {

@@ -7,7 +7,8 @@
 namespace ramify {
 
 // Rigid map plus a thin plate through three rows (centre line and both edges, so that widths match too), held by eight
-// anchors around the disc and damped where it would fold (PICTURES 12.1-5, ALGORITHMS 5.5). `bend` false: rigid only.
-WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const Candidate& candidate, bool bend);
+// anchors around the disc and damped where it would fold (PICTURES 12.1-5, ALGORITHMS 5.5); or as the options say.
+WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const Candidate& candidate,
+                       const PlacementOptions& options);
 
 }  // namespace ramify

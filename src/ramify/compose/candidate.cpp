@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kShapeSurvivors = 120;  // go on to the dearer terms
 constexpr std::size_t kKept = 24;
+constexpr std::size_t kCompared = 1200;
 constexpr std::size_t kEnough = 60;           // candidates of nearly the same width
 constexpr int kDiscGrid = 9;                  // disagreement is sampled on 19 x 19 points
 
@@ -80,8 +81,20 @@ double fitness_cost(const CandidateContext& context, const Candidate& c) {
   return light * (1.0 - c.cosine) + 0.2 * log_scale * log_scale + context.options.contrast_weight * faint * faint;
 }
 
+// A share of them, another one for every target: more than kCompared sources differ by a few pixels only.
+std::vector<int> thinned(const CandidateContext& context, const std::vector<int>& sources, int target_index) {
+  if (sources.size() <= kCompared) return sources;
+  const double share = static_cast<double>(kCompared) / static_cast<double>(sources.size());
+  std::vector<int> kept;
+  for (const int j : sources) {
+    if (hash01(context.seed, target_index, j, 1) < share) kept.push_back(j);
+  }
+  return kept;
+}
+
 // The sources of the target's kind and of nearly its width; the limits widen until there are enough.
-std::vector<int> comparable_sources(const CandidateContext& context, const Fragment& target, bool any_end) {
+std::vector<int> comparable_sources(const CandidateContext& context, const Fragment& target, int target_index,
+                                    bool any_end) {
   std::vector<std::pair<double, int>> all;
   for (std::size_t j = 0; j < context.shapes.size(); ++j) {
     const Fragment& source = context.library.fragments[j];
@@ -93,18 +106,18 @@ std::vector<int> comparable_sources(const CandidateContext& context, const Fragm
     for (const auto& [difference, source] : all) {
       if (difference <= limit) found.push_back(source);
     }
-    if (found.size() * 2 >= kEnough || found.size() == all.size()) return found;
+    if (found.size() * 2 >= kEnough || found.size() == all.size()) return thinned(context, found, target_index);
   }
   return {};
 }
 
-std::vector<Candidate> match_shapes(const CandidateContext& context, const Fragment& target, bool any_end) {
+std::vector<Candidate> match_shapes(const CandidateContext& context, const Fragment& target, int target_index, bool any_end) {
   const PlacementOptions& options = context.options;
   const bool may_mirror = options.mirror && context.library.light_strength < 0.35;
   const double omega = options.paper_greedy ? 2.0 : 1.0;
   const Shape wanted = shape_of(target, false);
   std::vector<Candidate> found;
-  for (const int j : comparable_sources(context, target, any_end)) {
+  for (const int j : comparable_sources(context, target, target_index, any_end)) {
     const double scale = scale_for(context.library.fragments[j], target);
     for (int mirror = 0; mirror <= (may_mirror ? 1 : 0); ++mirror) {
       const Shape& shape = mirror ? context.shapes[j].mirrored : context.shapes[j].straight;
@@ -187,9 +200,9 @@ CandidateContext::CandidateContext(const FragmentLibrary& photo_library, const B
 }
 
 std::vector<Candidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index) {
-  std::vector<Candidate> candidates = match_shapes(context, target, false);
+  std::vector<Candidate> candidates = match_shapes(context, target, target_index, false);
   // A photo without a single free end: the branch is cut off where it has to end.
-  if (candidates.empty() && target.kind == FragmentKind::Along) candidates = match_shapes(context, target, true);
+  if (candidates.empty() && target.kind == FragmentKind::Along) candidates = match_shapes(context, target, target_index, true);
   keep_best(candidates, kShapeSurvivors);
   const PlacementOptions& options = context.options;
   if (options.paper_greedy) return candidates;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ramify/compose/paper_blend.h"
 #include "ramify/compose/paste_cost.h"
 #include "ramify/core/parallel.h"
 #include "ramify/image/poisson.h"
@@ -61,6 +62,31 @@ ColorImage blend(const PasteCost& cost, const LabelImage& owner, const ColorImag
   return solve_screened_poisson(picture, wanted, options.screen, monitor);
 }
 
+// Paper 002, section 5.3 and figure 6: parents first; the disc of a furcation is deleted again before its child is laid.
+LabelImage label_in_order(const PlacementPlan& plan, const PasteCost& cost, LabelImage labels, const SeamOptions& seams,
+                          const Monitor& monitor) {
+  std::vector<int> placement_of(plan.targets.fragments.size(), kNone);
+  for (std::size_t i = 0; i < plan.placements.size(); ++i) placement_of[plan.placements[i].target] = static_cast<int>(i);
+  std::vector<SeamMove> by_label(plan.placements.size());
+  for (const SeamMove& move : cost.moves()) by_label[move.label] = move;
+  for (const std::vector<int>& chain : plan.targets.chains) {
+    std::vector<SeamMove> moves;
+    for (const int target : chain) {
+      if (placement_of[target] != kNone) moves.push_back(by_label[placement_of[target]]);
+    }
+    if (!moves.empty() && plan.targets.fragments[chain.front()].kind != FragmentKind::Along) {
+      const Placement& hole = plan.placements[moves.front().label];
+      for (int y = moves.front().top; y < moves.front().bottom; ++y) {
+        for (int x = moves.front().left; x < moves.front().right; ++x) {
+          if ((Vec2(x, y) - hole.centre).norm() < hole.radius) labels(x, y) = kNone;
+        }
+      }
+    }
+    labels = expand_labels(std::move(labels), moves, cost.functions(), seams, monitor);
+  }
+  return labels;
+}
+
 }  // namespace
 
 std::vector<OptionField> describe(PasteOptions& o) {
@@ -73,6 +99,7 @@ std::vector<OptionField> describe(PasteOptions& o) {
       number("screen", o.screen, 1e-6, 1.0, "", "Pull towards the fragments' own colours."),
       number("sharpen", o.sharpen, 0.0, 2.0, "", "Unsharp mask on fragments."),
       number("cut-sweeps", o.sweeps, 1, 10, "", "Sweeps of the seam search."),
+      flag("paper-order", o.paper_order, "Branch by branch, the parent deleted where a child leaves."),
       flag("paper-cut", o.paper_cut, "Seams by colour difference only, old seams forgotten."),
       flag("paper-blend", o.paper_blend, "One Poisson problem per fragment, one after the other."),
       flag("free-rims", o.free_rims, "With the paper's blending: rims are not held, and colours drift."),
@@ -90,7 +117,9 @@ PasteResult paste_fragments(const ColorImage& photo, const FragmentLibrary& libr
   const PasteCost cost(plan, patches, background, options);
   PasteResult result;
   const SeamOptions seams{options.sweeps, true, !options.paper_cut};
-  result.owner = expand_labels(LabelImage(background.size(), kNone), cost.moves(), cost.functions(), seams, monitor);
+  LabelImage empty(background.size(), kNone);
+  result.owner = options.paper_order ? label_in_order(plan, cost, std::move(empty), seams, monitor)
+                                     : expand_labels(std::move(empty), cost.moves(), cost.functions(), seams, monitor);
   monitor.report(0.8);
   result.color = background;
   constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
@@ -106,7 +135,8 @@ PasteResult paste_fragments(const ColorImage& photo, const FragmentLibrary& libr
       result.source(x, y) = plan.placements[label].photo_from_canvas(Vec2(x, y)).cast<float>();
     }
   }
-  result.color = blend(cost, result.owner, result.color, options, monitor);
+  result.color = options.paper_blend ? blend_in_order(cost, result.owner, result.color, options.free_rims, monitor)
+                                     : blend(cost, result.owner, result.color, options, monitor);
   return result;
 }
 

@@ -17,6 +17,7 @@ struct PasteOptions {
   double screen = 1e-3;         // pull towards the fragments' own colours, 1/px^2
   double sharpen = 0.3;         // unsharp mask on fragments: makes up for resampling and blending
   int sweeps = 2;
+  bool paper_order = false;     // paper 002: branch by branch; where a child leaves, the parent's discs are deleted first
   bool paper_cut = false;       // paper 002: colour difference only, old seams forgotten
   bool paper_blend = false;     // paper 002: one Poisson problem per fragment, in order, rims held where they are free
   bool free_rims = false;       // with paper_blend: rims not held, the plain variant that drifts (figure 5)

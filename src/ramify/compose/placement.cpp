@@ -153,7 +153,8 @@ FragmentOptions available_kinds(const FragmentLibrary& library, FragmentOptions 
   return options;
 }
 
-Placement placement_of(const FragmentLibrary& library, const Fragment& target, int index, const Candidate& c, bool bend) {
+Placement placement_of(const FragmentLibrary& library, const Fragment& target, int index, const Candidate& c,
+                       const PlacementOptions& options) {
   Placement p;
   p.target = index;
   p.source = c.source;
@@ -164,7 +165,7 @@ Placement placement_of(const FragmentLibrary& library, const Fragment& target, i
   p.disagreement = c.disagreement;
   p.centre = target.centre;
   p.radius = target.radius;
-  p.photo_from_canvas = bend_fragment(library.fragments[c.source], target, c, bend);
+  p.photo_from_canvas = bend_fragment(library.fragments[c.source], target, c, options);
   return p;
 }
 
@@ -184,6 +185,7 @@ std::vector<OptionField> describe(PlacementOptions& o) {
       flag("paper-greedy", o.paper_greedy, "Choose as the paper does: shape and overlap colour, one of the best at random."),
       number("paper-best", o.paper_best, 1, 100, "", "Among how many the paper's choice is drawn."),
       flag("bend", o.bend, "Bend every fragment to its target exactly."),
+      flag("paper-warp", o.paper_warp, "Bend by the paper's squared Laplacian instead of a thin plate."),
   };
 }
 
@@ -223,7 +225,7 @@ PlacementPlan place_fragments(const FragmentLibrary& library, const Skeleton& sk
   parallel_for(static_cast<int>(placed.size()), [&](int i) {
     monitor.check();
     const int t = placed[i];
-    plan.placements[i] = placement_of(library, plan.targets.fragments[t], t, selection.chosen(t), options.bend);
+    plan.placements[i] = placement_of(library, plan.targets.fragments[t], t, selection.chosen(t), options);
   });
   monitor.report(1.0);
   return plan;

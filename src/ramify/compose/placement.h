@@ -29,6 +29,7 @@ struct PlacementOptions {
   bool paper_greedy = false;     // shape + summed overlap colour, random among the best `paper_best`
   int paper_best = 2;
   bool bend = true;              // thin plate on three rows; false: rigid only
+  bool paper_warp = false;       // the paper's squared Laplacian through the centre line instead
 };
 std::vector<OptionField> describe(PlacementOptions& options);
 

@@ -122,6 +122,11 @@ struct Problem {
   Eigen::MatrixXf values;       // pixel x channel
   Eigen::MatrixXf right, down;  // pixel x channel, or empty
   int at(int x, int y) const { return y * width + x; }
+  bool is_unknown(std::size_t i) const { return unknown[i] != 0 && unknown[i] != kAbsentPixel; }
+  // Is there a step between two pixels to be solved for?
+  bool coupled(int i, int j) const {
+    return (is_unknown(i) || is_unknown(j)) && unknown[i] != kAbsentPixel && unknown[j] != kAbsentPixel;
+  }
   Eigen::RowVectorXd gradient(const Eigen::MatrixXf& g, int i) const {
     if (g.size() == 0) return Eigen::RowVectorXd::Zero(values.cols());
     return g.row(i).cast<double>();
@@ -139,7 +144,7 @@ System assemble(const Problem& p) {
   System s;
   std::vector<int> index(p.unknown.size(), kNone);
   for (std::size_t i = 0; i < p.unknown.size(); ++i) {
-    if (p.unknown[i] == 0) continue;
+    if (!p.is_unknown(i)) continue;
     index[i] = static_cast<int>(s.pixels.size());
     s.pixels.push_back(static_cast<int>(i));
   }
@@ -164,8 +169,8 @@ System assemble(const Problem& p) {
   for (int y = 0; y < p.height; ++y) {
     for (int x = 0; x < p.width; ++x) {
       const int i = p.at(x, y);
-      if (x + 1 < p.width && (p.unknown[i] || p.unknown[i + 1])) couple(i, i + 1, p.gradient(p.right, i));
-      if (y + 1 < p.height && (p.unknown[i] || p.unknown[i + p.width])) couple(i, i + p.width, p.gradient(p.down, i));
+      if (x + 1 < p.width && p.coupled(i, i + 1)) couple(i, i + 1, p.gradient(p.right, i));
+      if (y + 1 < p.height && p.coupled(i, i + p.width)) couple(i, i + p.width, p.gradient(p.down, i));
     }
   }
   constexpr double kHold = 1e-9;  // makes regions without known neighbours solvable
@@ -202,7 +207,7 @@ Problem coarsened(const Problem& fine) {
           c.right.row(c.at(x, y)) += 0.5f * fine.right.row(i);
           c.down.row(c.at(x, y)) += 0.5f * fine.down.row(i);
         }
-        if (fine.unknown[i]) continue;
+        if (fine.unknown[i] != 0) continue;
         known += fine.values.row(i);
         ++known_count;
       }

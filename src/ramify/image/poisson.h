@@ -23,8 +23,11 @@ ColorGradients gradients_of(const ColorImage& picture);
 ColorImage solve_screened_poisson(const ColorImage& target, const ColorGradients& wanted, double lambda,
                                   const Monitor& monitor);
 
-// Changes only the pixels where `unknown` is not 0: minimises sum (grad u - g)^2 over all pairs of neighbours of which at
-// least one is unknown; known pixels are the border values, picture borders are natural. For holes that are small or
+// In the mask `unknown` of the solvers below: pixels that are no part of the domain; nothing is said about steps to them.
+inline constexpr std::uint8_t kAbsentPixel = 128;
+
+// Changes only the pixels where `unknown` is 255: minimises sum (grad u - g)^2 over all pairs of neighbours of which at
+// least one is unknown; known pixels (0) are the border values, picture borders are natural. For holes that are small or
 // thin (sparse Cholesky); larger ones are solved from coarse to fine by conjugate gradients. Unknown pixels without any
 // known neighbour in their region keep their mean.
 ColorImage solve_poisson(const ColorImage& picture, const Mask& unknown, const ColorGradients& wanted,
