@@ -116,6 +116,9 @@ Scene draw_crack(Size size, const Rng& rng, const Monitor& monitor) {
     Rgb inside = mix(Rgb{0.250f, 0.232f, 0.205f}, Rgb{0.120f, 0.110f, 0.098f}, deep);
     inside = mix(inside, (0.45f + 0.4f * chunk) * wall(x, y), 0.75f * fill);
     inside = (1.0f + 0.10f * dust(x, y) + 0.22f * facing * (1.0f - deep)) * inside;
+    // Into hair cracks light still reaches; where they close up they are hardly darker than the wall.
+    const float open = smooth_step(0.5f, 3.2f, at.radius / static_cast<float>(s));
+    inside = mix((0.56f - 0.07f * worn(x, y)) * wall(x, y), inside, 0.25f + 0.75f * open);
     const float lip = std::exp(-0.5f * std::pow((at.distance - 1.3f) / (0.9f + 0.12f * at.radius), 2.0f));
     const float soil = std::exp(-std::max(0.0f, at.distance) / static_cast<float>(3.5 * s)) * smooth_step(-0.6f, 1.4f, worn(x, y));
     const float strength = 0.5f + 0.5f * smooth_step(-1.0f, 1.0f, worn(x, y));
