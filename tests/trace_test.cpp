@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "ramify/core/error.h"
+#include "ramify/core/parallel.h"
 #include "ramify/core/random.h"
 #include "ramify/exemplar/trace.h"
 #include "ramify/exemplar/width_probe.h"
@@ -203,6 +204,39 @@ TEST_CASE("a synthetic tree is traced with its radii") {
   CHECK(a.branches[0].leaves_frame.value_or(false) == false);  // from the frame inwards
   CHECK(a.branches[0].points.front().x() < 8.0);
   CHECK(a.branches[0].radii.front() > 4.5);
+}
+
+TEST_CASE("wrong radii are measured again") {
+  const std::vector<Stroke> truth{{{Vec2(10, 60), Vec2(230, 70)}, 5.0}};
+  const Photo photo = grey_photo(drawn(truth, {240, 130}, 0.8, 6.0 / 255.0, 9));
+  Annotation wrong;
+  wrong.photo_size = photo.color.size();
+  wrong.branches.emplace_back();
+  for (double x = 14; x <= 226; x += 3) {
+    wrong.branches[0].points.emplace_back(x, 60 + (x - 10) * 10.0 / 220.0 + 1.0);
+    wrong.branches[0].radii.push_back(7.0);
+  }
+  TraceOptions options;
+  options.polarity = TracePolarity::Dark;
+  const Annotation again = remeasure_widths(photo, wrong, options);
+  REQUIRE(again.branches[0].points.size() == wrong.branches[0].points.size());
+  std::vector<double> errors, offsets;
+  for (std::size_t i = 5; i + 5 < again.branches[0].points.size(); ++i) {
+    errors.push_back(std::abs(again.branches[0].radii[i] - 5.0));
+    offsets.push_back(distance_to_strokes(again.branches[0].points[i], truth));
+  }
+  CHECK(median(errors) <= 0.25 + 0.15);
+  CHECK(median(offsets) <= 0.4);
+}
+
+TEST_CASE("tracing gives the same bytes for any number of threads") {
+  const std::vector<Stroke> truth{{{Vec2(-10, 60), Vec2(200, 70)}, 4.0}, {{Vec2(90, 64), Vec2(140, 20)}, 2.0}};
+  const Photo photo = grey_photo(drawn(truth, {180, 130}, 0.8, 6.0 / 255.0, 9));
+  set_thread_count(1);
+  const std::string one = annotation_text(trace_photo(photo, {}));
+  set_thread_count(4);
+  CHECK(annotation_text(trace_photo(photo, {})) == one);
+  set_thread_count(0);
 }
 
 TEST_CASE("nothing to trace is said so") {
