@@ -67,7 +67,7 @@ BackgroundOptions with(BackgroundMode mode) {
 TEST_CASE("keep gives the plate back pixel by pixel") {
   Scene s = ground(240, 180, 0.2f);
   finish(s);
-  const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, {240, 180}, with(BackgroundMode::Keep), Rng(3));
+  const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, s.plate, {240, 180}, with(BackgroundMode::Keep), Rng(3));
   const Background b = make_background(s.exemplar, s.habitat, s.plate, plan, {}, Rng(3), {});
   CHECK(b.color == s.plate.color);
   CHECK(plan.canvas_from_photo({17.0, 33.0}, 240) == Vec2(17.0, 33.0));
@@ -79,7 +79,7 @@ TEST_CASE("auto makes new ground of texture and varies what has shades or landma
   // A branch is part of the photo's slow share; keep it thin beside the grain.
   finish(texture);
   const auto mode = [](const Scene& s) {
-    return plan_background(s.exemplar, s.habitat, {240, 180}, {}, Rng(1)).mode;
+    return plan_background(s.exemplar, s.habitat, s.plate, {240, 180}, {}, Rng(1)).mode;
   };
   CHECK(mode(texture) == BackgroundMode::New);
   Scene shade = ground(240, 180, 0.8f);
@@ -97,7 +97,7 @@ TEST_CASE("vary moves landmarks and outside shapes rigidly and keeps the grain")
   mark(s, RegionRole::Landmark, 300, 100, 380, 180);
   finish(s);
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, {640, 480}, with(BackgroundMode::Vary), Rng(seed));
+    const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, s.plate, {640, 480}, with(BackgroundMode::Vary), Rng(seed));
     CHECK(plan.scale == 1.0);  // an enlargement would cut the outside shape
     const Background b = make_background(s.exemplar, s.habitat, s.plate, plan, {}, Rng(seed), {});
     for (const Vec2 p : {Vec2(320.0, 120.0), Vec2(370.0, 170.0), Vec2(50.0, 460.0)}) {
@@ -118,7 +118,7 @@ TEST_CASE("bends of vary never fold or stretch much") {
   BackgroundOptions options = with(BackgroundMode::Vary);
   options.zoom = 1.0;
   for (const std::uint64_t seed : {5, 6, 7}) {
-    const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, {640, 480}, options, Rng(seed));
+    const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, s.plate, {640, 480}, options, Rng(seed));
     const Background b = make_background(s.exemplar, s.habitat, s.plate, plan, {}, Rng(seed), {});
     const double sign = plan.flipped ? -1.0 : 1.0;
     double low = 9.0, high = -9.0, moved = 0.0;
@@ -146,7 +146,7 @@ TEST_CASE("new ground fills any canvas with the photo's texture") {
   for (const Size canvas : {Size{260, 200}, Size{420, 150}}) {
     Skeleton target(canvas);
     for (int k = 0; k < 14; ++k) target.append({Vec3(canvas.width / 2, 10.0 * k, 0.0), 3.0, k - 1, 0, 0});
-    const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, canvas, with(BackgroundMode::New), Rng(1));
+    const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, s.plate, canvas, with(BackgroundMode::New), Rng(1));
     const Background b = make_background(s.exemplar, s.habitat, s.plate, plan, target, Rng(1), {});
     REQUIRE(b.color.size() == canvas);
     CHECK(fine_grain(b.color) / fine_grain(s.plate.color) == Approx(1.0).margin(0.06));
@@ -160,7 +160,7 @@ TEST_CASE("a larger canvas extends the photo beyond its frame") {
   Scene s = ground(200, 160, 0.1f);
   finish(s);
   const Size canvas{300, 160};
-  const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, canvas, with(BackgroundMode::Keep), Rng(1));
+  const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, s.plate, canvas, with(BackgroundMode::Keep), Rng(1));
   const Background b = make_background(s.exemplar, s.habitat, s.plate, plan, {}, Rng(1), {});
   CHECK(b.color(50 + 20, 30) == s.plate.color(20, 30));
   for (int y = 0; y < 160; ++y) {
@@ -172,7 +172,7 @@ TEST_CASE("the same seed gives the same background and another seed another one"
   Scene s = ground(240, 180, 0.0f);
   finish(s);
   const auto make = [&](std::uint64_t seed) {
-    const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, {240, 180}, with(BackgroundMode::New), Rng(seed));
+    const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, s.plate, {240, 180}, with(BackgroundMode::New), Rng(seed));
     return make_background(s.exemplar, s.habitat, s.plate, plan, {}, Rng(seed), {}).color;
   };
   const ColorImage first = make(1);

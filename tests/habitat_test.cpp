@@ -163,3 +163,20 @@ TEST_CASE("the plate of a glowing branch keeps nothing of its glow") {
   for (int y = 60; y < 260; ++y) square += std::pow(plate.color(160, y).g - slow(160, y).g, 2);
   CHECK(std::sqrt(square / 200.0) == Approx(0.01).margin(0.004));  // grain of the photo
 }
+
+TEST_CASE("dense lines in one place are no texture and all over are") {
+  for (const int width : {90, 320}) {
+    Exemplar e = disc_exemplar(false, false);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if ((x + y / 9) % 24 < 2 && y % 40 != 0) e.photo.color(x, y) = {0.3f, 0.15f, 0.1f};
+      }
+    }
+    HabitatOptions options;
+    options.automatic = false;
+    options.texture_share = 0.03;
+    const Habitat habitat = find_habitat(e, options, Rng(1), {});
+    INFO("lines over " << width << " px, share " << habitat.shadow_share);
+    CHECK(habitat.shadow_is_texture == (width == 320));
+  }
+}

@@ -43,8 +43,8 @@ std::vector<OptionField> describe(BackgroundOptions& options);
 // Share of a picture's variance that is slower than a sixteenth of the photo's width (ALGORITHMS 6.1).
 double slow_share(const ColorImage& photo, const Mask& without);
 
-// Auto: New where the photo is all texture (slow share below 0.2) without landmarks or outside shapes, else Vary.
-BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat, Size canvas,
+// Auto: New where the plate is all texture (slow share below 0.2) without landmarks or outside shapes, else Vary.
+BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat, const Plate& plate, Size canvas,
                                const BackgroundOptions& options, Rng rng);
 
 struct Background {

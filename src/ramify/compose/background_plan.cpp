@@ -77,7 +77,7 @@ double slow_share(const ColorImage& photo, const Mask& without) {
   return variance > 0.0 ? (slow_square / count - std::pow(slow_sum / count, 2)) / variance : 0.0;
 }
 
-BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat, Size canvas,
+BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat, const Plate& plate, Size canvas,
                                const BackgroundOptions& options, Rng rng) {
   BackgroundPlan plan;
   plan.canvas = canvas;
@@ -87,7 +87,7 @@ BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat,
   if (plan.mode == BackgroundMode::Auto) {
     // PICTURES 7 says 0.1, its table in 8 wants new ground for the Amazon (0.16) and the wall (0.15) as well.
     constexpr double kTexture = 0.2;
-    plan.mode = !bound && slow_share(exemplar.photo.color, Mask(exemplar.photo.color.size(), 0)) < kTexture ? BackgroundMode::New : BackgroundMode::Vary;
+    plan.mode = !bound && slow_share(plate.color, habitat.outside) < kTexture ? BackgroundMode::New : BackgroundMode::Vary;
   }
   // What lies outside is never cut, and a skyline moves sideways only: no enlargement.
   const bool may_scale = outside == 0.0;

@@ -160,6 +160,28 @@ Mask hysteresis(const Mask& weak, const Mask& strong, Keep keep) {
   return out;
 }
 
+// Texture is found all over the ground; the twigs of a crown before the sky are as dense, but in one place.
+bool is_everywhere(const Mask& shadow, const Mask& without, double mean_share) {
+  constexpr int kCell = 64;  // px
+  int cells = 0, covered = 0;
+  for (int y0 = 0; y0 + kCell <= shadow.height(); y0 += kCell) {
+    for (int x0 = 0; x0 + kCell <= shadow.width(); x0 += kCell) {
+      int ground = 0, marked = 0;
+      for (int y = y0; y < y0 + kCell; ++y) {
+        for (int x = x0; x < x0 + kCell; ++x) {
+          if (without(x, y)) continue;
+          ++ground;
+          marked += shadow(x, y) != 0;
+        }
+      }
+      if (ground < kCell * kCell / 4) continue;
+      ++cells;
+      covered += marked > 0.3 * mean_share * ground;
+    }
+  }
+  return covered > 0.6 * cells;
+}
+
 }  // namespace
 
 std::vector<OptionField> describe(HabitatOptions& o) {
@@ -295,7 +317,7 @@ Habitat find_habitat(const Exemplar& exemplar, const HabitatOptions& options, Rn
   }
   habitat.shadow = shadow;
   habitat.shadow_share = ground > 0.0 ? marked / ground : 0.0;
-  habitat.shadow_is_texture = habitat.shadow_share > options.texture_share;
+  habitat.shadow_is_texture = habitat.shadow_share > options.texture_share && is_everywhere(shadow, add(branches, habitat.outside), habitat.shadow_share);
   const int percent = static_cast<int>(std::lround(100.0 * habitat.shadow_share));
   monitor.note("branch-like lines nobody annotated cover " + std::to_string(percent) + " % of the background" +
                (habitat.shadow_is_texture ? ": taken for its texture" : ""));

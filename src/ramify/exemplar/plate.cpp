@@ -95,7 +95,7 @@ Reach measure_reach(const Exemplar& exemplar, const Habitat& habitat) {
   while (reach.margin < kMost && quantile(at[static_cast<std::size_t>(reach.margin)], 0.5) > rest + visible) {
     reach.margin += 1.0;
   }
-  reach.telling = std::max(0.5 * contrast, quantile(elsewhere, 0.98));
+  reach.telling = std::max(0.5 * contrast, quantile(elsewhere, 0.94));
   return reach;
 }
 
