@@ -156,9 +156,9 @@ ColorImage apply_light(const LightLayer& layer, const ColorImage& background, co
     const ColorImage glow = render_glow(layer.glow_model, core);
     for_pixels(out.size(), [&](int x, int y) {
       for (int c = 0; c < 3; ++c) {
-        const float light = linear_from_srgb(background(x, y)[c]) + (1.0f - kCoreKept * inside(x, y)) * glow(x, y)[c] +
-                            value(x, y)[c];
-        out(x, y)[c] = std::clamp(srgb_from_linear(light), 0.0f, 1.0f);
+        const float around = (1.0f - kCoreKept * inside(x, y)) * glow(x, y)[c];
+        const float light = std::max(glow(x, y)[c], value(x, y)[c] + around);  // never darker than the glow alone
+        out(x, y)[c] = std::clamp(srgb_from_linear(linear_from_srgb(background(x, y)[c]) + light), 0.0f, 1.0f);
       }
     });
     return out;

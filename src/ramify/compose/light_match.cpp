@@ -16,7 +16,7 @@ constexpr double kEarlyWeight = 0.15;   // a child's start likes the middle of a
 constexpr double kFrameCost = 0.3;      // the disc leaves the photo
 constexpr double kHueWeight = 0.5;
 constexpr double kMisfitWeight = 6.0;   // of widths that differ by more than the strictest choice allows
-constexpr double kLeastGain = 0.4, kMostGain = 1.6;
+constexpr double kLeastGain = 0.6, kMostGain = 1.6;
 constexpr double kNoise = 0.02;
 constexpr double kBanned = 1e3;
 

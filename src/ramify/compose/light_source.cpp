@@ -20,7 +20,7 @@ constexpr double kBrightHalo = 0.06;   // linear light
 constexpr double kHaloCost = 8.0;
 constexpr double kOddHue = 1.3;         // log ratio
 constexpr double kLeastOfParent = 0.75; // a child is dimmed to its parent's level, but no further than this
-constexpr double kBadTemplate = 0.2;    // cost of a template strand that is not fit to be copied
+constexpr double kBadTemplate = 0.7;    // cost of a template strand that is not fit to be copied
 constexpr float kWhite = 1.0f;          // linear light; for absorbing layers a transmission of 0.37, dark enough
 constexpr int kClean = 4;              // samples on both sides that must be good
 

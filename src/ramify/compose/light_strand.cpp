@@ -122,13 +122,13 @@ bool at_frame(const Vec2& p, Size size) {
          p.y() >= size.height - 1 - kFrameMargin;
 }
 
-// Does p lie on another strand than `own`?
-bool touches_other(const std::vector<Strand>& strands, int own, const Vec2& p) {
+// Does strand `own` reach another one with its end at p, its own radius and 2 px ahead?
+bool touches_other(const std::vector<Strand>& strands, int own, const Vec2& p, double radius) {
   for (int k = 0; k < static_cast<int>(strands.size()); ++k) {
     if (k == own) continue;
     const Strand& other = strands[k];
     for (int t = other.first; t < other.count(); t += 2) {
-      if ((other.points[t] - p).squaredNorm() < std::pow(other.radii[t] + 1.5, 2)) return true;
+      if ((other.points[t] - p).squaredNorm() < std::pow(other.radii[t] + radius + 2.0, 2)) return true;
     }
   }
   return false;
@@ -204,8 +204,8 @@ std::vector<Strand> make_strands(const Skeleton& skeleton) {
   parallel_for(static_cast<int>(strands.size()), [&](int k) {
     Strand& s = strands[k];
     const Vec2 start = s.points.front(), end = s.points.back();
-    s.open_start = s.parent == kNone && !at_frame(start, skeleton.size) && !touches_other(strands, k, start);
-    s.open_end = !at_frame(end, skeleton.size) && !touches_other(strands, k, end);
+    s.open_start = s.parent == kNone && !at_frame(start, skeleton.size) && !touches_other(strands, k, start, s.radii.front());
+    s.open_end = !at_frame(end, skeleton.size) && !touches_other(strands, k, end, s.radii.back());
   });
   return strands;
 }
