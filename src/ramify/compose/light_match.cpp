@@ -16,6 +16,7 @@ constexpr double kEarlyWeight = 0.15;   // a child's start likes the middle of a
 constexpr double kFrameCost = 0.3;      // the disc leaves the photo
 constexpr double kHueWeight = 0.5;
 constexpr double kMisfitWeight = 6.0;   // of widths that differ by more than the strictest choice allows
+constexpr double kBurnt = 0.85;         // level from which a core is burnt out, or a vessel as dark as they come
 constexpr double kLeastGain = 0.6, kMostGain = 1.6;
 constexpr double kNoise = 0.02;
 constexpr double kBanned = 1e3;
@@ -76,7 +77,8 @@ double level_cost(const Vec3& level, const Vec3& wanted) {
 // Evens out brightness along a branch, within what a source can stand.
 double level_gain(const Vec3& level, const Vec3& wanted) {
   if (wanted.sum() <= 0.0 || level.sum() <= 0.0) return 1.0;
-  return std::clamp(wanted.mean() / level.mean(), kLeastGain, kMostGain);
+  const double gain = std::clamp(wanted.mean() / level.mean(), kLeastGain, kMostGain);
+  return level.mean() > kBurnt ? std::max(1.0, gain) : gain;  // dimmed white is no light a flash has
 }
 
 // The part of the cost that needs no shapes.
