@@ -34,8 +34,9 @@ float hardness(const PasteCost& cost, int a, int b, int x, int y, int dx, int dy
     worst = std::max(worst, color_distance(*ca, *cb));
     disagree = disagree || cost.shows_branch(a, px, py) != cost.shows_branch(b, px, py);
   }
-  if (!disagree) return 0.0f;
-  return std::clamp((worst - static_cast<float>(guard)) / static_cast<float>(guard), 0.0f, 1.0f);
+  // Annotations err by some pixels: twice the guard is hard whatever the fragments claim to show.
+  const float from = static_cast<float>(disagree ? guard : 2.0 * guard);
+  return std::clamp((worst - from) / static_cast<float>(guard), 0.0f, 1.0f);
 }
 
 // Gradients of the owners; across a seam those of the fragment laid on top, not an average, which would be too smooth.
