@@ -49,7 +49,7 @@ BranchLook measure_branch_look(const ColorImage& photo, const FragmentLibrary& l
 CompositeMode choose_composite_mode(const Exemplar& exemplar, const FragmentLibrary& library) {
   if (exemplar.polarity == Polarity::Glow) return CompositeMode::Emit;
   const BranchLook look = measure_branch_look(exemplar.photo.color, library);
-  // Measured on ten photos (docs/decisions/0010): lightning's core 0.90 and roughness 0.02, the next bright ones 0.91 but
+  // Measured on ten photos (docs/decisions/0021): lightning's core 0.90 and roughness 0.02, the next bright ones 0.91 but
   // 0.19 (snow on ridges) and 0.46 but 0.04 (roots); retina's roughness 0.14, the smoothest crack's 0.21.
   constexpr double kLuminous = 0.8, kDarkGround = 0.5, kEvenGround = 0.1, kSmoothGround = 0.17, kThin = 8.0;
   if (look.ground < kDarkGround && look.contrast + look.ground > kLuminous && look.roughness < kEvenGround) {
