@@ -88,7 +88,7 @@ TEST_CASE("distances between distributions have their closed forms") {
   CHECK(total_variation(same.first, same.second) == 0.0);
   CHECK(jensen_shannon(same.first, same.second) == 0.0);
   CHECK(total_variation(moved.first, moved.second) == Approx(0.25).margin(0.01));
-  const Histogram left = make_histogram(std::vector<double>{0.1}, 0, 1), right = make_histogram(std::vector<double>{0.9}, 0, 1);
+  const ShareHistogram left = make_histogram(std::vector<double>{0.1}, 0, 1), right = make_histogram(std::vector<double>{0.9}, 0, 1);
   CHECK(jensen_shannon(left, right) == Approx(1.0));
   CHECK(total_variation(left, right) == Approx(1.0));
 }

@@ -116,7 +116,7 @@ std::string report_svg(const Report& report) {
 std::string report_json(const Report& report) {
   Json::Array histograms;
   for (const HistogramFigure& h : report.histograms) {
-    const auto shares = [](const Histogram& histogram) {
+    const auto shares = [](const ShareHistogram& histogram) {
       Json::Array list;
       for (const double s : histogram.shares) list.push_back(s);
       return Json(list);

@@ -18,7 +18,7 @@ double degrees(double angle) { return angle * 180.0 / kPi; }
 // Plots show angles in degrees.
 void add_histogram(const std::string& label, const std::string& unit, HistogramPair pair, StructureComparison& out) {
   const bool angle = unit == "rad";
-  for (Histogram* h : {&pair.first, &pair.second}) {
+  for (ShareHistogram* h : {&pair.first, &pair.second}) {
     if (angle) h->low = degrees(h->low), h->high = degrees(h->high);
   }
   out.histograms.push_back({label, angle ? "deg" : unit, pair.first, pair.second});

@@ -15,7 +15,7 @@ namespace ramify {
 // Two distributions drawn on top of each other.
 struct HistogramFigure {
   std::string label, unit;
-  Histogram exemplar, result;
+  ShareHistogram exemplar, result;
 };
 
 struct StructureComparison {

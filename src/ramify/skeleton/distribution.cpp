@@ -16,8 +16,8 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-Histogram make_histogram(std::span<const double> values, double low, double high, int bins) {
-  Histogram histogram{low, high, std::vector<double>(static_cast<std::size_t>(bins), 0.0)};
+ShareHistogram make_histogram(std::span<const double> values, double low, double high, int bins) {
+  ShareHistogram histogram{low, high, std::vector<double>(static_cast<std::size_t>(bins), 0.0)};
   const double width = high > low ? (high - low) / bins : 1.0;
   for (const double v : values) {
     const int bin = static_cast<int>(std::clamp(std::floor((v - low) / width), 0.0, bins - 1.0));
@@ -35,13 +35,13 @@ HistogramPair make_histograms(std::span<const double> first, std::span<const dou
   return {make_histogram(first, low, high, bins), make_histogram(second, low, high, bins)};
 }
 
-double total_variation(const Histogram& a, const Histogram& b) {
+double total_variation(const ShareHistogram& a, const ShareHistogram& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.shares.size(); ++i) sum += std::abs(a.shares[i] - b.shares[i]);
   return 0.5 * sum;
 }
 
-double jensen_shannon(const Histogram& a, const Histogram& b) {
+double jensen_shannon(const ShareHistogram& a, const ShareHistogram& b) {
   const auto term = [](double p, double mean) { return p > 0.0 ? p * std::log2(p / mean) : 0.0; };
   double sum = 0.0;
   for (std::size_t i = 0; i < a.shares.size(); ++i) {

@@ -9,21 +9,21 @@
 
 namespace ramify {
 
-struct Histogram {
+struct ShareHistogram {
   double low = 0.0, high = 1.0;  // the bins divide [low, high] equally; values outside count in the end bins
   std::vector<double> shares;    // summing to 1 (all 0 without values)
 };
-inline constexpr int kHistogramBins = 16;
-Histogram make_histogram(std::span<const double> values, double low, double high, int bins = kHistogramBins);
+inline constexpr int kShareBins = 16;
+ShareHistogram make_histogram(std::span<const double> values, double low, double high, int bins = kShareBins);
 
 // Both over the range of the first set.
 struct HistogramPair {
-  Histogram first, second;
+  ShareHistogram first, second;
 };
-HistogramPair make_histograms(std::span<const double> first, std::span<const double> second, int bins = kHistogramBins);
+HistogramPair make_histograms(std::span<const double> first, std::span<const double> second, int bins = kShareBins);
 
-double total_variation(const Histogram& a, const Histogram& b);  // 0 same … 1 disjoint
-double jensen_shannon(const Histogram& a, const Histogram& b);   // bits, 0 … 1
+double total_variation(const ShareHistogram& a, const ShareHistogram& b);  // 0 same … 1 disjoint
+double jensen_shannon(const ShareHistogram& a, const ShareHistogram& b);   // bits, 0 … 1
 
 // Earth mover's distance between the samples themselves (no bins), in their unit; 0 when one is empty.
 double earth_movers_distance(std::span<const double> a, std::span<const double> b);
