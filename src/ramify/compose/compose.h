@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dresses a skeleton with fragments of a photo (paper 002, section 5; PICTURES 3 to 7, 12.1, 12.3).
+// What dressing a skeleton with fragments of a photo takes and gives (paper 002, section 5). The whole road is scene.h;
+// paste.h and light.h are its two ways.
 #pragma once
 
 #include <string>
@@ -20,28 +21,27 @@ enum class BackgroundMode { Auto, Keep, Vary, New };
 struct ComposeOptions {
   CompositeMode composite = CompositeMode::Auto;
   BackgroundMode background = BackgroundMode::Auto;
-  double fragment_radius_factor = 3.0;  // disc radius in units of the branch radius (before the clamp of PICTURES 4)
-  double leave_out = 0.0;               // px; sources nearer than this to their own place are banned (a test's tool)
-  bool paper_exact = false;
+  bool mirror = true;        // sources and background may be mirrored where light allows
+  double leave_out = 0.0;    // disc radii, 0 … 100; sources nearer than this to their own place are banned
+  // Single departures back to the paper (ALGORITHMS 17); paper_exact sets all of them. They paste only.
+  bool paper_spacing = false;  // source discs lambda-spaced, lambda = 0.75
+  bool paper_greedy = false;   // greedy choice with summed overlap colour, random among the best two
+  bool paper_order = false;    // parents first, furcations laid over them
+  bool paper_rigid = false;    // no warp
+  bool paper_cut = false;      // seams by colour difference alone, without history
+  bool paper_blend = false;    // one Poisson problem after the other
+  bool free_rims = false;      // with paper_blend: rims not held, the plain variant that drifts
+  bool paper_exact = false;    // all of them but paper_rigid and free_rims
 };
 std::vector<OptionField> describe(ComposeOptions& options);
 
-// Where a pixel of the result comes from.
-enum class Origin : std::uint8_t { Background, Fragment, Completion };
-
 struct Composite {
-  ColorImage color;                 // sRGB
-  ColorImage plate;                 // the background that was used, without branches
-  LabelImage owner;                 // fragment index of every pixel, kNone for background
-  Image<Eigen::Vector2f> source;    // photo pixel every pixel was taken from (px), NaN where there is none
-  CompositeMode composite = CompositeMode::Paste;     // what Auto chose
+  ColorImage color;     // sRGB
+  ColorImage plate;     // the background that was used, without branches
+  LabelImage owner;     // fragment index of every pixel, kNone for background
+  VectorImage source;   // photo pixel every pixel was taken from (px), NaN where there is none
+  CompositeMode composite = CompositeMode::Paste;   // what Auto chose
   BackgroundMode background = BackgroundMode::Keep;
-  struct DebugImage { std::string name; ColorImage image; };
-  std::vector<DebugImage> debug;    // intermediates, filled only when asked for
 };
-
-// Throws InputError when the exemplar offers no fragment for the skeleton.
-Composite compose_image(const Exemplar& exemplar, const Skeleton& skeleton, const ComposeOptions& options, Rng rng,
-                        const Monitor& monitor);
 
 }  // namespace ramify

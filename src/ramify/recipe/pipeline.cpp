@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/recipe/pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "ramify/core/atomic_file.h"
+#include "ramify/core/version.h"
+#include "ramify/geometry/polyline.h"
+#include "ramify/geometry/svg_path.h"
+#include "ramify/image/filter.h"
+#include "ramify/image/image_io.h"
+#include "ramify/image/sample.h"
+#include "ramify/skeleton/skeleton_io.h"
+
+namespace ramify {
+namespace fs = std::filesystem;
+namespace {
+
+Size parse_canvas(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  double width = 0, height = 0;
+  const bool numbers = cross != std::string::npos && parse_number(text.substr(0, cross), width) && parse_number(text.substr(cross + 1), height);
+  if (!numbers || width < 1 || height < 1 || width != std::floor(width) || height != std::floor(height) || width > 1e9 || height > 1e9) {
+    throw OptionError("size", "'" + printable(text, 60) + "'", "expected WIDTHxHEIGHT in px, such as 1600x1076");
+  }
+  return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+// "x,y[,direction_deg[,radius]] …"
+std::vector<GrowthRoot> parse_roots(const std::string& text) {
+  std::vector<GrowthRoot> roots;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    std::vector<double> values;
+    std::istringstream parts(word);
+    for (std::string part; std::getline(parts, part, ',');) {
+      double value = 0.0;
+      if (!parse_number(part, value)) values.clear(), values.resize(9);
+      values.push_back(value);
+    }
+    if (values.size() < 2 || values.size() > 4 || (values.size() == 4 && values[3] <= 0.0)) {
+      throw OptionError("roots", "'" + printable(word, 60) + "'", "expected x,y or x,y,direction_deg or x,y,direction_deg,radius in px");
+    }
+    GrowthRoot root;
+    root.position = Vec2(values[0], values[1]);
+    if (values.size() > 2) root.direction = wrap_angle(values[2] * kPi / 180.0);
+    if (values.size() > 3) root.radius = values[3];
+    roots.push_back(root);
+  }
+  return roots;
+}
+
+void check_canvas(Size size, const LoadLimits& limits) {
+  const double pixels = static_cast<double>(size.width) * size.height;
+  if (pixels <= limits.pixels) return;
+  throw LimitError("a canvas of " + std::to_string(size.width) + "x" + std::to_string(size.height) + " px needs about " +
+                   number_text(std::round(pixels * 120 / 1048576)) + " MiB; the limit is " + number_text(limits.pixels) +
+                   " px (--limit-pixels)");
+}
+
+std::string hash_of(const std::string& path) { return sha256_hex(read_file(path, std::size_t{1} << 30)); }
+
+void add_input(LoadedRequest& loaded, const std::string& role, const std::string& path) {
+  loaded.inputs.push_back({role, fs::path(path).filename().string(), hash_of(path)});
+  loaded.files.push_back(path);
+}
+
+ScalarImage load_map(const std::string& path, Size size, const LoadLimits& limits, const Monitor& monitor) {
+  const ScalarImage map = load_scalar(path, limits);
+  if (map.size() == size) return map;
+  monitor.note(printable(path) + ": resized from " + std::to_string(map.width()) + "x" + std::to_string(map.height()) + " to the canvas");
+  return resize(map, size);
+}
+
+// The longest path of a drawing, on the canvas.
+std::vector<Vec2> load_guide_path(const std::string& path, Size canvas, const Monitor& monitor) {
+  const SvgDrawing drawing = parse_svg(read_file(path, 64u << 20), printable(path, 300));
+  std::vector<Vec2> best;
+  double length = 0.0;
+  for (const SvgPath& candidate : drawing.paths) {
+    const double own = candidate.points.size() < 2 ? 0.0 : arc_lengths(candidate.points).back();
+    if (own > length) best = candidate.points, length = own;
+  }
+  if (best.empty()) throw InputError(printable(path, 300), "holds no path to follow");
+  if (drawing.size.width > 0 && drawing.size != canvas) {
+    monitor.note(printable(path) + ": scaled from its viewBox of " + std::to_string(drawing.size.width) + "x" +
+                 std::to_string(drawing.size.height) + " to the canvas");
+    const Vec2 scale(static_cast<double>(canvas.width) / drawing.size.width, static_cast<double>(canvas.height) / drawing.size.height);
+    for (Vec2& p : best) p = p.cwiseProduct(scale);
+  }
+  return best;
+}
+
+void load_guides(LoadedRequest& loaded, const Monitor& monitor) {
+  const PictureRequest& request = loaded.request;
+  GrowthTarget& target = loaded.target;
+  if (!request.density.empty()) {
+    target.density = load_map(request.density, target.size, request.limits, monitor);
+    for (const float value : target.density.pixels()) {
+      if (!std::isfinite(value)) throw InputError(printable(request.density, 300), "holds values that are not numbers");
+    }
+    const auto white = [](float v) { return v > 8.0f / 255.0f; };
+    if (std::none_of(target.density.pixels().begin(), target.density.pixels().end(), white)) {
+      throw InputError(printable(request.density, 300), "is all black: there is nothing to grow; paint white where branches shall be");
+    }
+    add_input(loaded, "density", request.density);
+  }
+  if (request.guide.empty()) return;
+  if (fs::path(request.guide).extension() == ".svg") {
+    target.guide_path = load_guide_path(request.guide, target.size, monitor);
+  } else {
+    target.guide_map = load_map(request.guide, target.size, request.limits, monitor);
+  }
+  add_input(loaded, "guide", request.guide);
+}
+
+// A mirrored ground is grown on unmirrored, as the style was learnt, and the result is mirrored.
+template <class T>
+Image<T> mirrored(const Image<T>& image) {
+  Image<T> out(image.size());
+  for (int y = 0; y < image.height(); ++y) std::reverse_copy(image.row(y), image.row(y) + image.width(), out.row(y));
+  return out;
+}
+
+GrowthTarget mirrored(const GrowthTarget& target) {
+  const double right = target.size.width - 1.0;
+  GrowthTarget out = target;
+  for (GrowthRoot& root : out.roots) {
+    root.position.x() = right - root.position.x();
+    if (root.direction) root.direction = wrap_angle(kPi - *root.direction);
+  }
+  for (Vec2& p : out.guide_path) p.x() = right - p.x();
+  out.density = mirrored(target.density);
+  out.guide_map = mirrored(target.guide_map);
+  out.outside = mirrored(target.outside);
+  out.obstacles = mirrored(target.obstacles);
+  return out;
+}
+
+Skeleton mirrored(Skeleton skeleton) {
+  for (int i = 0; i < skeleton.count(); ++i) {
+    Vec3 p = skeleton[i].position;
+    p.x() = skeleton.size.width - 1.0 - p.x();
+    skeleton.set_position(i, p);
+  }
+  return skeleton;
+}
+
+// Growth leaves what lies outside the habitat, and what is kept as it is, like the frame.
+Mask no_habitat(const Habitat& habitat, const BackgroundPlan& plan) {
+  if (habitat.role.empty() || plan.mode == BackgroundMode::New) return {};
+  Mask map = habitat.outside;
+  for (std::size_t i = 0; i < map.pixels().size(); ++i) {
+    if (habitat.role.pixels()[i] == static_cast<std::uint8_t>(RegionRole::Keep)) map.pixels()[i] = 255;
+  }
+  return on_canvas(map, plan);
+}
+
+Skeleton grow_on_plan(const LoadedRequest& loaded, const BackgroundPlan& plan, const Rng& rng, const Monitor& monitor) {
+  GrowthTarget target = loaded.target;
+  target.outside = no_habitat(loaded.scene.habitat, plan);
+  const GrowOptions& options = loaded.request.options.grow;
+  if (!plan.flipped) return grow_from_style(loaded.style, target, options, rng, monitor);
+  return mirrored(grow_from_style(loaded.style, mirrored(target), options, rng, monitor));
+}
+
+Recipe make_recipe(const LoadedRequest& loaded, std::uint64_t seed) {
+  StageOptions options = loaded.request.options;
+  return {RAMIFY_VERSION, loaded.request.verb, seed, loaded.inputs, option_values(describe(options))};
+}
+
+}  // namespace
+
+std::vector<OptionField> describe(StageOptions& options) {
+  std::vector<OptionField> fields{text("size", options.size, "Canvas, WIDTHxHEIGHT in px."),
+                                  text("roots", options.roots, "Where branches start."),
+                                  number("depth", options.depth, 0, 32, "bits", "Bits a channel.")};
+  for (const auto& part : {describe(options.learn), describe(options.grow), describe(options.compose)}) {
+    fields.insert(fields.end(), part.begin(), part.end());
+  }
+  return fields;
+}
+
+void check_request(PictureRequest& request) {
+  check_options(describe(request.options));
+  if (!request.options.size.empty()) check_canvas(parse_canvas(request.options.size), request.limits);
+  parse_roots(request.options.roots);
+  const int depth = request.options.depth;
+  if (depth != 0 && depth != 8 && depth != 16 && depth != 32) {
+    throw OptionError("depth", std::to_string(depth), "expected 8, 16 or 32");
+  }
+}
+
+LoadedRequest load_request(const PictureRequest& request, const Monitor& monitor) {
+  LoadedRequest loaded;
+  loaded.request = request;
+  check_request(loaded.request);
+  loaded.source = load_exemplar(request.exemplar, monitor.stage("exemplar", 0.0, 0.2));
+  loaded.inputs = loaded.source.inputs;
+  loaded.files = loaded.source.files;
+  Size size = loaded.source.exemplar.photo.color.size();
+  if (!request.skeleton.empty()) {
+    LoadedSkeleton file = load_skeleton(request.skeleton);
+    for (const std::string& note : file.notes) monitor.note(note);
+    loaded.skeleton = std::move(file.skeleton);
+    if (loaded.skeleton->size.width > 0) size = loaded.skeleton->size;
+    add_input(loaded, "skeleton", request.skeleton);
+  }
+  if (!request.options.size.empty()) size = parse_canvas(request.options.size);
+  check_canvas(size, request.limits);
+  if (loaded.skeleton) loaded.skeleton->size = size;
+  loaded.target.size = size;
+  loaded.target.roots = parse_roots(request.options.roots);
+  load_guides(loaded, monitor);
+  const Exemplar& exemplar = loaded.source.exemplar;
+  if (!loaded.skeleton) loaded.style = learn_style(exemplar.skeleton, request.options.learn, monitor.stage("learn", 0.2, 0.3));
+  if (request.verb == "grow") {
+    loaded.scene.habitat = find_habitat(exemplar, HabitatOptions{}, Rng(0).child("scene").child("habitat"), monitor.stage("habitat", 0.3, 1.0));
+  } else {
+    loaded.scene = prepare_scene(exemplar, request.options.compose, monitor.stage("scene", 0.3, 1.0));
+  }
+  return loaded;
+}
+
+Picture make_picture(const LoadedRequest& loaded, std::uint64_t seed, const Monitor& monitor) {
+  const StageOptions& options = loaded.request.options;
+  const Exemplar& exemplar = loaded.source.exemplar;
+  const bool picture_wanted = loaded.request.verb != "grow";
+  const Rng rng(seed);
+  BackgroundPlan plan;
+  plan.canvas = loaded.target.size;
+  if (picture_wanted) {
+    plan = plan_scene_background(exemplar, loaded.scene, loaded.target.size, options.compose, rng.child("plan"));
+  }
+  Picture picture;
+  picture.recipe = make_recipe(loaded, seed);
+  picture.skeleton = loaded.skeleton ? *loaded.skeleton
+                                     : grow_on_plan(loaded, plan, rng.child("grow"), monitor.stage("grow", 0.0, 0.1));
+  if (picture_wanted) {
+    picture.composite = compose_image(exemplar, loaded.scene, plan, picture.skeleton, options.compose, rng.child("compose"),
+                                      monitor.stage("compose", 0.1, 0.95));
+  }
+  return picture;
+}
+
+Recipe load_recipe(const std::string& path, const LoadLimits& limits) {
+  if (is_json_file(path)) return parse_recipe(read_file(path, 1u << 24), printable(path, 300));
+  const LoadedImage image = load_image(path, limits);
+  const auto text = image.texts.find("ramify-recipe");
+  if (text != image.texts.end()) return parse_recipe(text->second, printable(path, 300));
+  const std::string beside = path + ".recipe.json";
+  if (fs::exists(beside)) return parse_recipe(read_file(beside, 1u << 24), printable(beside, 300));
+  throw InputError(printable(path, 300), "holds no ramify recipe: it was not made by ramify, or another program saved it since");
+}
+
+PictureRequest request_from_recipe(const Recipe& recipe, const std::string& folder) {
+  PictureRequest request;
+  request.verb = recipe.verb;
+  for (OptionField& field : describe(request.options)) {
+    const auto value = recipe.options.find(field.name);
+    if (value != recipe.options.end()) set_text(field, value->second);
+  }
+  for (const RecipeInput& input : recipe.inputs) {
+    const std::string path = find_input(input, folder);
+    if (input.role == "exemplar") request.exemplar.argument = path;
+    if (input.role == "annotation") request.exemplar.annotation = path;
+    if (input.role == "regions") request.exemplar.regions = path;
+    if (input.role == "density") request.density = path;
+    if (input.role == "guide") request.guide = path;
+    if (input.role == "skeleton") request.skeleton = path;
+  }
+  return request;
+}
+
+}  // namespace ramify
