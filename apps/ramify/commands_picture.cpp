@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The verbs that make pictures and skeletons: synth, grow, render, replay.
+#include <algorithm>
+#include <memory>
+#include <tuple>
+
+#include "commands.h"
+#include "outputs.h"
+#include "progress.h"
+#include "ramify/core/version.h"
+#include "ramify/image/image_io.h"
+#include "ramify/recipe/outputs.h"
+#include "ramify/recipe/pipeline.h"
+#include "ramify/recipe/recipe.h"
+
+namespace ramify::app {
+namespace {
+
+const std::vector<std::string> kPictures{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".webp"};
+const std::vector<std::string> kSkeletons{".json", ".swc", ".svg", ".geojson"};
+
+// Everything the three verbs can be told; each shows only what has an effect on it.
+struct PictureArguments {
+  PictureRequest request;
+  FieldFlags flags;
+  int count = 1;
+  std::string output, skeleton_file, mask_file, radius_file, report_file;
+};
+
+void add_exemplar_options(CLI::App& app, PictureArguments& a) {
+  app.add_option("exemplar", a.request.exemplar.argument, "NAME.ramify.json, builtin:KIND, or a photo with --annotation")
+      ->required();
+  app.add_option("--annotation", a.request.exemplar.annotation,
+                 "Annotation or skeleton of the photo (.json, .swc), or auto to trace it")->type_name("FILE|auto");
+  app.add_option("--regions", a.request.exemplar.regions,
+                 "Grey map of the photo: 0 ignore, 64 outside, 128 keep, 192 landmark, 255 habitat")->type_name("PNG");
+}
+
+void add_growth_options(CLI::App& app, PictureArguments& a) {
+  app.add_option("--density", a.request.density, "Painted map: white is grown and filled, black never entered")
+      ->type_name("IMAGE");
+  app.add_option("--guide", a.request.guide, "Course of the main branch: a path (.svg) or white on black")
+      ->type_name("SVG|IMAGE");
+  std::vector<OptionField> fields = describe(a.request.options.learn);
+  for (OptionField& field : describe(a.request.options.grow)) fields.push_back(field);
+  fields.push_back(text("roots", a.request.options.roots, "Where branches start: \"x,y[,direction_deg[,radius]] …\" in px."));
+  a.flags.add(app, fields, "Structure");
+}
+
+void add_count(CLI::App& app, PictureArguments& a) {
+  std::vector<OptionField> fields{number("count", a.count, 1, 100000, "N", "How many; picture i has seed S+i and a number in its name.")};
+  a.flags.add(app, fields, "Output");
+}
+
+void add_picture_options(CLI::App& app, PictureArguments& a) {
+  a.flags.add(app, describe(a.request.options.compose), "Picture");
+  a.flags.add(app, {number("depth", a.request.options.depth, 0, 32, "bits", "8, 16 or 32 bits a channel; 0 = the photo's.")}, "Output");
+  app.add_option("--mask", a.mask_file, "Also write the exact branch mask (.png)")->type_name("FILE")->group("Output");
+  app.add_option("--radius-map", a.radius_file, "Also write the 16-bit radius map, 1/256 px (.png)")->type_name("FILE")->group("Output");
+  app.add_option("--report", a.report_file, "Also write a report beside the exemplar (.html)")->type_name("FILE")->group("Output");
+}
+
+std::vector<std::string> all_outputs(const PictureArguments& a) {
+  std::vector<std::string> out;
+  for (const std::string* path : {&a.output, &a.skeleton_file, &a.mask_file, &a.radius_file, &a.report_file}) {
+    if (!path->empty()) out.push_back(*path);
+  }
+  return out;
+}
+
+void check_names(const PictureArguments& a, const std::vector<std::string>& main_kinds) {
+  check_extension("output", a.output, main_kinds);
+  if (!a.skeleton_file.empty()) check_extension("skeleton", a.skeleton_file, kSkeletons);
+  if (!a.mask_file.empty()) check_extension("mask", a.mask_file, {".png"});
+  if (!a.radius_file.empty()) check_extension("radius-map", a.radius_file, {".png"});
+  if (!a.report_file.empty()) check_extension("report", a.report_file, {".html"});
+}
+
+Outcome make_all(PictureArguments& a, const SharedOptions& shared, const std::string& verb,
+                 const std::vector<std::string>& main_kinds, const Monitor& monitor) {
+  check_names(a, main_kinds);
+  a.request.verb = verb;
+  a.request.limits = shared.load_limits();
+  a.request.exemplar.allow_other_photo = shared.allow_other_photo;
+  a.request.exemplar.limits = shared.load_limits();
+  check_request(a.request);
+  if (!shared.debug_dir.empty()) make_folder(shared.debug_dir);
+  const LoadedRequest loaded = load_request(a.request, monitor.stage("load", 0.0, a.count == 1 ? 0.3 : 0.3 / a.count));
+  Outcome outcome;
+  for (int i = 0; i < a.count; ++i) {
+    const auto name = [&](const std::string& path) { return path.empty() || a.count == 1 ? path : numbered(path, i); };
+    const PictureFiles files{name(a.output), name(a.skeleton_file), name(a.mask_file), name(a.radius_file),
+                             name(a.report_file), name(shared.debug_dir)};
+    PictureArguments named = a;
+    std::tie(named.output, named.skeleton_file, named.mask_file, named.radius_file, named.report_file) =
+        std::tie(files.picture, files.skeleton, files.mask, files.radius, files.report);
+    const std::vector<std::string> outputs = all_outputs(named);
+    check_outputs(outputs, loaded.files);
+    if (shared.no_clobber && std::all_of(outputs.begin(), outputs.end(), file_exists)) {
+      outcome.skipped.insert(outcome.skipped.end(), outputs.begin(), outputs.end());
+      continue;
+    }
+    if (!files.debug_folder.empty()) make_folder(files.debug_folder);
+    const double start = a.count == 1 ? 0.3 : 0.3 / a.count;  // what is prepared once weighs less the more pictures
+    const double from = start + (1.0 - start) * i / a.count, to = start + (1.0 - start) * (i + 1) / a.count;
+    const Monitor part = a.count == 1 ? monitor.stage(verb, from, to) : monitor.stage(verb + " " + std::to_string(i + 1) + "/" + std::to_string(a.count), from, to);
+    const Picture picture = make_picture(loaded, shared.seed + static_cast<std::uint64_t>(i), part);
+    save_picture(loaded, picture, files, part);
+    outcome.outputs.insert(outcome.outputs.end(), outputs.begin(), outputs.end());
+  }
+  return outcome;
+}
+
+}  // namespace
+
+void add_synth(CLI::App& root, Chosen& chosen) {
+  const auto a = std::make_shared<PictureArguments>();
+  CLI::App* app = root.add_subcommand("synth", "Make new photographs: learn, grow, render in one go");
+  add_exemplar_options(*app, *a);
+  app->add_option("-o,--output", a->output, "Picture to write (.png .jpg .tif .exr .webp)")->required()->type_name("FILE");
+  a->flags.add(*app, {text("size", a->request.options.size, "Canvas WIDTHxHEIGHT in px; larger means more picture [the exemplar's]")}, "Output");
+  add_count(*app, *a);
+  app->add_option("--skeleton", a->skeleton_file, "Also write the skeleton (.json .swc .svg .geojson)")->type_name("FILE")->group("Output");
+  add_picture_options(*app, *a);
+  add_growth_options(*app, *a);
+  add_shared(*app, chosen.shared);
+  app->footer("Examples:\n  ramify synth builtin:lightning -o bolt.png\n"
+              "  ramify synth river.ramify.json --seed 7 --count 9 -o delta.png --mask delta_mask.png\n"
+              "  ramify synth photo.jpg --annotation auto --density letter.png -o letter.png");
+  app->callback([&chosen, a] {
+    chosen.work = [&chosen, a](const Monitor& m) { return make_all(*a, chosen.shared, "synth", kPictures, m); };
+  });
+}
+
+void add_grow(CLI::App& root, Chosen& chosen) {
+  const auto a = std::make_shared<PictureArguments>();
+  CLI::App* app = root.add_subcommand("grow", "Grow new skeletons in the exemplar's style, without a picture");
+  add_exemplar_options(*app, *a);
+  app->add_option("-o,--output", a->output, "Skeleton to write (.json .swc .svg .geojson)")->required()->type_name("FILE");
+  a->flags.add(*app, {text("size", a->request.options.size, "Canvas WIDTHxHEIGHT in px [the exemplar's]")}, "Output");
+  add_count(*app, *a);
+  add_growth_options(*app, *a);
+  add_shared(*app, chosen.shared);
+  app->footer("Examples:\n  ramify grow builtin:river --seed 3 -o river.svg\n"
+              "  ramify grow river.ramify.json --guide course.svg -o guided.swc");
+  app->callback([&chosen, a] {
+    chosen.work = [&chosen, a](const Monitor& m) { return make_all(*a, chosen.shared, "grow", kSkeletons, m); };
+  });
+}
+
+void add_render(CLI::App& root, Chosen& chosen) {
+  const auto a = std::make_shared<PictureArguments>();
+  CLI::App* app = root.add_subcommand("render", "Dress any skeleton with any exemplar's fragments");
+  add_exemplar_options(*app, *a);
+  app->add_option("skeleton", a->request.skeleton, "Skeleton to render (.json .swc .svg)")->required();
+  app->add_option("-o,--output", a->output, "Picture to write (.png .jpg .tif .exr .webp)")->required()->type_name("FILE");
+  a->flags.add(*app, {text("size", a->request.options.size, "Canvas WIDTHxHEIGHT in px [the skeleton's]")}, "Output");
+  add_count(*app, *a);
+  add_picture_options(*app, *a);
+  add_shared(*app, chosen.shared);
+  app->footer("Examples:\n  ramify render builtin:lightning river.swc -o lightning_river.png\n"
+              "  ramify render crack.ramify.json grown.json --background new -o crack.png");
+  app->callback([&chosen, a] {
+    chosen.work = [&chosen, a](const Monitor& m) { return make_all(*a, chosen.shared, "render", kPictures, m); };
+  });
+}
+
+void add_replay(CLI::App& root, Chosen& chosen) {
+  struct Arguments {
+    std::string input, output;
+    bool any_version = false;
+  };
+  const auto a = std::make_shared<Arguments>();
+  CLI::App* app = root.add_subcommand("replay", "Make a picture again from the recipe inside it: the same bytes");
+  app->add_option("input", a->input, "A picture made by ramify, its OUT.recipe.json, or a recipe")->required();
+  app->add_option("-o,--output", a->output, "Picture to write")->required()->type_name("FILE");
+  app->add_flag("--any-version", a->any_version, "Go on although another version made it");
+  add_shared(*app, chosen.shared);
+  app->footer("Example:\n  ramify replay out.png -o again.png && cmp out.png again.png");
+  app->callback([&chosen, a] {
+    chosen.work = [&chosen, a](const Monitor& monitor) {
+      check_extension("output", a->output, kPictures);
+      check_outputs({a->output}, {a->input});
+      const SharedOptions& shared = chosen.shared;
+      if (shared.no_clobber && file_exists(a->output)) return Outcome{{}, {a->output}, ""};
+      const Recipe recipe = load_recipe(a->input, shared.load_limits());
+      if (recipe.version != RAMIFY_VERSION && !a->any_version) {
+        throw InputError(printable(a->input, 300), "was made by ramify " + printable(recipe.version, 40) + ", this is " RAMIFY_VERSION
+                         "; the bytes may differ, --any-version goes on all the same");
+      }
+      PictureRequest request = request_from_recipe(recipe, folder_of(a->input));
+      request.limits = request.exemplar.limits = shared.load_limits();
+      const LoadedRequest loaded = load_request(request, monitor.stage("load", 0.0, 0.3));
+      const Picture picture = make_picture(loaded, recipe.seed, monitor.stage(recipe.verb, 0.3, 1.0));
+      save_picture(loaded, picture, {a->output, "", "", "", "", ""}, monitor);
+      return Outcome{{a->output}, {}, ""};
+    };
+  });
+}
+
+}  // namespace ramify::app

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Words on the command line: verbs, options, names of files (RELIABILITY rows 18, 19, 33, 34, 46)."""
+import os
+import socket
+import unittest
+
+from harness import CliTest, png
+
+
+class Usage(CliTest):
+    def test_help_and_version(self):
+        self.assertRegex(self.ok("--version").stdout, r"^ramify \d+\.\d+\.\d+\n$")
+        verbs = ["synth", "grow", "render", "trace", "rectify", "complete", "exemplar", "compare", "convert", "replay", "info"]
+        top = self.ok("--help").stdout
+        for verb in verbs:
+            self.assertIn(verb, top)
+            self.assertIn("Example", self.ok(verb, "--help").stdout)
+
+    def test_unknown_words_get_a_suggestion(self):
+        self.fails(2, "Did you mean synth?", "snyth")
+        self.fails(2, "Did you mean --tropism?", "synth", self.exemplar, "-o", "a.png", "--tropsim", "1")
+        self.fails(2, "--help", "synth")
+        self.fails(2, "--help")
+
+    def test_numbers(self):
+        out = ("-o", "a.png")
+        for seed in ["1e3", "-1", "0x10", "18446744073709551616", "seven", "1.0", ""]:
+            self.fails(2, "--seed", "synth", self.exemplar, *out, "--seed", seed)
+        for count in ["0", "-1", "9223372036854775808", "1.5", "many"]:
+            self.fails(2, "--count", "synth", self.exemplar, *out, "--count", count)
+        for size in ["0x10", "-5x5", "10", "10x", "ax5", "10x10x10"]:
+            self.fails(2, "size", "synth", self.exemplar, *out, "--size", size)
+        self.fails(2, "--tropism", "synth", self.exemplar, *out, "--tropism", "9")
+        self.fails(2, "--roots", "synth", self.exemplar, *out, "--roots", "1")
+        self.fails(2, "--background", "synth", self.exemplar, *out, "--background", "blue")
+
+    def test_canvas_limit_is_known_before_work(self):
+        self.fails(5, ["MiB", "limit"], "synth", self.exemplar, "-o", "a.png", "--size", "1000000x1000000", timeout=5)
+
+    def test_output_names(self):
+        self.fails(2, ".png", "synth", self.exemplar, "-o", "a.bmp")
+        self.fails(4, "folder does not exist", "synth", self.exemplar, "-o", "missing/a.png")
+        os.symlink("target.png", self.path("link.png"))
+        self.fails(4, "symbolic link", "synth", self.exemplar, "-o", "link.png")
+        os.mkdir(self.path("folder.png"))
+        self.fails(4, "is a folder", "synth", self.exemplar, "-o", "folder.png")
+        self.fails(4, "too long", "synth", self.exemplar, "-o", "x" * 300 + ".png")
+
+    def test_the_input_is_never_overwritten(self):
+        before = self.digest(self.photo)
+        done = self.run_cli("synth", self.exemplar, "-o", self.photo)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertEqual(self.digest(self.photo), before)
+
+    def test_no_clobber_keeps_what_is_there(self):
+        out = self.path("a.png", b"mine")
+        done = self.ok("synth", self.exemplar, "-o", out, "--no-clobber")
+        self.assertIn("kept", done.stderr)
+        self.assertEqual(open(out, "rb").read(), b"mine")
+
+    def test_inputs_that_are_no_files(self):
+        os.mkfifo(self.path("pipe"))
+        s = socket.socket(socket.AF_UNIX)
+        s.bind(self.path("socket"))
+        self.addCleanup(s.close)
+        for name in ["pipe", "socket", ".", "/dev/zero", "missing.png"]:
+            self.fails(3, "", "trace", name, "-o", "a.ramify.json", timeout=5)
+
+    def test_strange_names_work(self):
+        picture = png(64, 48, lambda x, y: (40, 40, 40) if abs(y - 24) < 3 else (200, 200, 200))
+        for name in ["with space.png", "ünï.png", "new\nline.png", "x" * 250 + ".png"]:
+            self.path(name, picture)
+            self.assertEqual(self.ok("info", "--json", name).returncode, 0)
+        self.path("-x.png", picture)
+        self.ok("info", "--", "-x.png")
+        self.fails(3, "", "info", "y" * 4200)
+
+    def test_escape_sequences_are_not_echoed(self):
+        done = self.fails(3, "\\x1b", "info", "a\x1b[31mb.png")
+        self.assertNotIn("\x1b", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
