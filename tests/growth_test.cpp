@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -148,4 +149,228 @@ TEST_CASE("a cancelled growth stops") {
   const Style style = style_of({}, 6);
   monitor.cancel();
   CHECK_THROWS_AS(grow_from_style(style, canvas(600, 400), GrowOptions{}, Rng(1), monitor), Cancelled);
+}
+
+namespace {
+
+struct DensityFigures {
+  int black_nodes = 0;
+  double bright_length = 0.0;      // share of the length where the map is above one half
+  double rank_correlation = 0.0;   // of map and length over 64 px cells
+  double white_reached = 0.0;      // share of the white within 2 rho of a branch
+};
+
+std::vector<double> ranks_of(const std::vector<double>& values) {
+  std::vector<double> ranks;
+  for (const double v : values) {
+    double below = 0.0, equal = 0.0;
+    for (const double w : values) below += w < v, equal += w == v;
+    ranks.push_back(below + 0.5 * equal);
+  }
+  return ranks;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  double ma = 0, mb = 0, ab = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) ma += a[i] / a.size(), mb += b[i] / b.size();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (a[i] - ma) * (b[i] - mb);
+    aa += (a[i] - ma) * (a[i] - ma);
+    bb += (b[i] - mb) * (b[i] - mb);
+  }
+  return ab / std::sqrt(aa * bb);
+}
+
+// The figures of PICTURES 9, from the skeleton and the map alone.
+DensityFigures density_figures(const Skeleton& s, const ScalarImage& map, double two_rho) {
+  DensityFigures figures;
+  const int columns = map.width() / 64, rows = map.height() / 64;
+  std::vector<double> length(columns * rows, 0.0), mean(columns * rows, 0.0);
+  for (int y = 0; y < rows * 64; ++y) {
+    for (int x = 0; x < columns * 64; ++x) mean[y / 64 * columns + x / 64] += map(x, y);
+  }
+  double all = 0.0, bright = 0.0;
+  for (const Node& node : s.nodes()) {
+    const int x = static_cast<int>(std::lround(node.position.x())), y = static_cast<int>(std::lround(node.position.y()));
+    figures.black_nodes += map.contains(x, y) && map(x, y) <= 8.0f / 255.0f;
+    if (node.parent == kNone) continue;
+    const double edge = (node.xy() - s[node.parent].xy()).norm();
+    all += edge;
+    bright += map.clamped(x, y) > 0.5f ? edge : 0.0;
+    if (x >= 0 && y >= 0 && x / 64 < columns && y / 64 < rows) length[y / 64 * columns + x / 64] += edge;
+  }
+  figures.bright_length = bright / all;
+  figures.rank_correlation = correlation(ranks_of(mean), ranks_of(length));
+  double white = 0.0, reached = 0.0;
+  for (int y = 0; y < map.height(); y += 3) {
+    for (int x = 0; x < map.width(); x += 3) {
+      if (map(x, y) <= 0.5f) continue;
+      white += 1.0;
+      for (const Node& node : s.nodes()) {
+        if ((node.xy() - Vec2(x, y)).norm() - node.radius <= two_rho) {
+          reached += 1.0;
+          break;
+        }
+      }
+    }
+  }
+  figures.white_reached = reached / white;
+  return figures;
+}
+
+bool in_box(int x, int y, int x0, int y0, int x1, int y1) { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+
+// A letter R, 500 px high, of bars and a bow.
+ScalarImage letter_r() {
+  ScalarImage map(576, 640, 0.0f);
+  for (int y = 0; y < 640; ++y) {
+    for (int x = 0; x < 576; ++x) {
+      const double bow = std::hypot((x - 300) / 1.25, y - 200.0);
+      const bool stem = in_box(x, y, 110, 70, 210, 570);
+      const bool curve = x >= 200 && bow > 55 && bow < 130;
+      const bool leg = y >= 310 && y < 570 && std::abs(x - (260 + 0.6 * (y - 310))) < 60;
+      map(x, y) = stem || curve || leg ? 1.0f : 0.0f;
+    }
+  }
+  return map;
+}
+
+test::WavyTree dense_tree() {
+  test::WavyTree tree;
+  tree.children = 14;
+  tree.radius = 4.0;
+  return tree;
+}
+
+}  // namespace
+
+TEST_CASE("a painted letter is filled and nothing else") {
+  const Style style = style_of({}, 11);
+  GrowthTarget target = canvas(576, 640);
+  target.density = letter_r();
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const Skeleton grown = grow_from_style(style, target, GrowOptions{}, Rng(seed), Monitor{});
+    const DensityFigures figures = density_figures(grown, target.density, 2.0 * style.hierarchy.spacing);
+    CHECK(figures.black_nodes == 0);
+    CHECK(figures.bright_length >= 0.9);
+    CHECK(figures.rank_correlation >= 0.7);
+    CHECK(figures.white_reached >= 0.65);
+    CHECK(crossing_pairs(grown) == 0);
+  }
+}
+
+TEST_CASE("a soft map is followed in rank") {
+  const Style style = style_of({}, 12);
+  GrowthTarget target = canvas(704, 512);
+  target.density = ScalarImage(704, 512);
+  for (int y = 0; y < 512; ++y) {
+    for (int x = 0; x < 704; ++x) target.density(x, y) = static_cast<float>(x / 704.0 * (0.6 + 0.4 * std::sin(y / 90.0)));
+  }
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const Skeleton grown = grow_from_style(style, target, GrowOptions{}, Rng(seed), Monitor{});
+    const DensityFigures figures = density_figures(grown, target.density, 2.0 * style.hierarchy.spacing);
+    CHECK(figures.black_nodes == 0);
+    CHECK(figures.rank_correlation >= 0.75);
+  }
+}
+
+TEST_CASE("an island of white gets a root of its own") {
+  GrowthTarget target = canvas(640, 300);
+  target.density = ScalarImage(640, 300, 0.0f);
+  for (int y = 40; y < 260; ++y) {
+    for (int x = 0; x < 640; ++x) target.density(x, y) = x < 280 || x > 360 ? 1.0f : 0.0f;
+  }
+  const Skeleton grown = grow_from_style(style_of(dense_tree(), 13), target, GrowOptions{}, Rng(1), Monitor{});
+  double left = 0.0, right = 0.0;
+  for (const Node& node : grown.nodes()) (node.position.x() < 320 ? left : right) += 1.0;
+  CHECK(left > 50);
+  CHECK(right > 0.4 * left);
+}
+
+TEST_CASE("a guided main branch stays in its valley") {
+  test::WavyTree tree;
+  tree.wave = 0.35;
+  const Style style = style_of(tree, 14);
+  GrowthTarget target = canvas(600, 500);
+  for (int i = 0; i <= 100; ++i) target.guide_path.emplace_back(20 + 5.4 * i, 250 + 140 * std::sin(i * 0.06));
+  GrowOptions options;
+  options.guide_width = 25.0;
+  options.levels = 1;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Skeleton grown = grow_from_style(style, target, options, Rng(seed), Monitor{});
+    int beyond = 0;
+    double farthest_x = 0.0;
+    for (const Node& node : grown.nodes()) {
+      double nearest = 1e300;
+      for (const Vec2& p : target.guide_path) nearest = std::min(nearest, (p - node.xy()).norm());
+      beyond += nearest > 2.0 * options.guide_width;
+      farthest_x = std::max(farthest_x, node.position.x());
+    }
+    CHECK(beyond <= 0.05 * grown.count());
+    CHECK(farthest_x > 480.0);
+  }
+}
+
+TEST_CASE("grown statistics are the exemplar's") {
+  const Style style = style_of({}, 15);
+  double forks = 0.0, length = 0.0;
+  Vec2 heading = Vec2::Zero();
+  std::vector<int> runs;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Skeleton grown = grow_from_style(style, canvas(600, 400), GrowOptions{}, Rng(seed), Monitor{});
+    for (const Branch& branch : branch_tree(grown).branches) {
+      forks += branch.parent != kNone;
+      length += branch.length;
+      if (branch.order == 0) heading += grown[branch.nodes.back()].xy() - grown[branch.nodes.front()].xy();
+      int run = 1;
+      for (std::size_t i = 1; i < branch.nodes.size(); ++i) {
+        const int a = grown[branch.nodes[i - 1]].tag, b = grown[branch.nodes[i]].tag;
+        const bool goes_on = a != 0 && b == a + (a > 0 ? 1 : -1);
+        if (goes_on) {
+          ++run;
+        } else {
+          runs.push_back(run);
+          run = 1;
+        }
+      }
+      runs.push_back(run);
+    }
+  }
+  const double children = static_cast<double>(style.hierarchy.branches.size()) - 1.0;
+  CHECK(forks / length == Approx(children / style.hierarchy.total_length).epsilon(0.3));
+  CHECK(std::abs(angle_of(heading)) < 25.0 * kPi / 180.0);
+  std::sort(runs.begin(), runs.end());
+  CHECK(runs[runs.size() / 2] <= 3 * style.bending.extension);
+}
+
+TEST_CASE("every flag back to the paper changes the growth") {
+  const Style style = style_of({}, 16);
+  const Skeleton plain = grow_from_style(style, canvas(600, 400), GrowOptions{}, Rng(3), Monitor{});
+  for (bool GrowOptions::*flag : {&GrowOptions::raw_distance, &GrowOptions::radius_histogram, &GrowOptions::raster_density,
+                                  &GrowOptions::parent_first, &GrowOptions::copy_stem, &GrowOptions::free_direction,
+                                  &GrowOptions::free_radius, &GrowOptions::paper_exact}) {
+    GrowOptions options;
+    options.*flag = true;
+    const Skeleton grown = grow_from_style(style, canvas(600, 400), options, Rng(3), Monitor{});
+    CHECK(grown.count() > 50);
+    CHECK_FALSE(same(grown, plain));
+  }
+}
+
+TEST_CASE("a style without furcations grows its branch alone") {
+  test::WavyTree tree;
+  tree.orders = 1;
+  const Skeleton grown = grow_from_style(style_of(tree, 17), canvas(600, 400), GrowOptions{}, Rng(1), Monitor{});
+  CHECK(branch_tree(grown).branches.size() == 1);
+}
+
+TEST_CASE("a given root keeps its place and radius") {
+  GrowthTarget target = canvas(600, 400);
+  target.roots = {{Vec2(300, 200), 1.0, 3.0}};
+  const Skeleton grown = grow_from_style(style_of({}, 18), target, GrowOptions{}, Rng(1), Monitor{});
+  CHECK(grown[0].xy() == Vec2(300, 200));
+  CHECK(grown[0].radius == Approx(3.0));
+  CHECK(std::abs(wrap_angle(angle_of(grown[1].xy() - grown[0].xy()) - 1.0)) < 0.1);
+  target.roots = {{Vec2(900, 200), {}, {}}};
+  CHECK_THROWS_AS(grow_from_style(style_of({}, 18), target, GrowOptions{}, Rng(1), Monitor{}), InputError);
 }

@@ -26,15 +26,9 @@ int verbatim_run(const GrowingBranch& branch) {
   return run;
 }
 
-// Displacement of the `count` vertices after `vertex`, in the frame of the branch's last edge.
-Vec2 displacement(const BendingModel& bending, int vertex, bool mirrored, int count, bool first_turn) {
-  double angle = 0.0;
-  Vec2 sum = Vec2::Zero();
-  for (int j = 0; j < count; ++j) {
-    if (j > 0 || first_turn) angle += mirrored ? -bending.alpha[vertex + j] : bending.alpha[vertex + j];
-    sum += direction_of(angle);
-  }
-  return sum * bending.step;
+double one_minus_cosine(const Vec2& a, const Vec2& b) {
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  return lengths > 0.0 ? 1.0 - a.dot(b) / lengths : 1.0;
 }
 
 // The terms of a candidate's score that are not its likeness.
@@ -42,33 +36,29 @@ struct Scorer {
   const GrowthState& state;
   const GrowingBranch& branch;
   const StepAim& aim;
-  double direction;                  // rad, of the tip
+  Vec2 along;                        // unit vector of the tip's direction
   int from;                          // first node of the chord that is compared
-  std::optional<double> intended;    // rad
+  std::optional<Vec2> intended;      // unit vector
   double heading_weight;
   double remaining;                  // px
   int run;
 
   Vec2 advance(const Candidate& c) const {
     const int count = std::min(aim.count, state.matcher.following(c.vertex));
-    const Vec2 local = displacement(state.style.bending, c.vertex, c.mirrored, count, branch.count() > 1);
-    const Vec2 along = direction_of(direction);
-    return local.x() * along + local.y() * perpendicular(along);
+    const Vec2 local = state.matcher.displacement(c.vertex, count, branch.count() == 1);
+    return local.x() * along + (c.mirrored ? -local.y() : local.y()) * perpendicular(along);
   }
 
   double heading(const Vec2& step) const {
-    if (aim.join) {
-      const double wanted = angle_of(*aim.join - branch.points.back());
-      return -3.0 * kHeadingWeight * (1.0 - std::cos(angle_of(step) - wanted));
-    }
+    if (aim.toward) return -aim.pull * one_minus_cosine(step, *aim.toward - branch.points.back());
     if (!intended) return 0.0;
-    const double chord = angle_of(branch.points.back() + step - branch.points[from]);
-    return -heading_weight * (1.0 - std::cos(chord - *intended));
+    return -heading_weight * one_minus_cosine(branch.points.back() + step - branch.points[from], *intended);
   }
 
   // Heading drift bounded by the exemplar's own 95 % values (PICTURES 1).
   double drift(const Vec2& step) const {
     const Hierarchy& h = state.style.hierarchy;
+    if (aim.guided || state.ground.painted()) return 0.0;  // the user's course may turn more than the exemplar's
     const int m = state.style.bending.extension, tip = branch.count() - 1;
     double penalty = 0.0;
     for (std::size_t l = 0; l < h.lags.size(); ++l) {
@@ -148,11 +138,12 @@ std::vector<Candidate> find_candidates(const GrowthState& state, int number, con
   const bool ends_soon = aim.count < m;
   state.matcher.match(branch, ends_soon ? aim.count : std::max(1, m / 2), state.options.raw_distance, qualities);
 
-  Scorer scorer{state, branch, aim, direction_at(branch, tip), std::max(0, tip - kHeadingReach * m), std::nullopt, 0.0,
+  Scorer scorer{state, branch, aim, direction_of(direction_at(branch, tip)), std::max(0, tip - kHeadingReach * m), std::nullopt, 0.0,
                 std::max(0.0, branch.length - branch.arc(state.style.step)), verbatim_run(branch)};
   if (!state.options.free_direction) {
-    scorer.intended = intended_direction(state, branch, scorer.from, aim.count * state.style.step);
-    scorer.heading_weight = kHeadingWeight * (1.0 + std::min(3.0, (tip - scorer.from) / (2.0 * m)));
+    const auto wanted = intended_direction(state, branch, scorer.from, aim.count * state.style.step);
+    if (wanted) scorer.intended = direction_of(*wanted);
+    scorer.heading_weight = kHeadingWeight * (1.0 + std::min(2.0, (tip - scorer.from) / (3.0 * m)));
   }
   const std::vector<double> remaining = remaining_scores(state, scorer.remaining);
   const bool plain = state.options.paper_exact;
@@ -182,6 +173,7 @@ std::vector<Candidate> find_candidates(const GrowthState& state, int number, con
 
 void leave_frame(const Ground& ground, double direction, double step, Extension& extension) {
   extension.stop = GrowthStop::Frame;
+  if (ground.painted()) return;  // what is painted is met to the pixel
   const double radius = extension.radii.back();
   const auto off_canvas = [&](const Vec2& p) {
     return std::max({-p.x(), -p.y(), p.x() - (ground.size().width - 1), p.y() - (ground.size().height - 1)});
@@ -216,7 +208,8 @@ Extension extend_by(const GrowthState& state, int number, const Candidate& candi
       radius = wanted * std::pow(tip_radius / wanted, std::pow(0.5, (j + 1.0) / (0.25 * m + 1.0)));
     }
     out.points.push_back(point);
-    out.radii.push_back(std::clamp(radius, 0.5, branch.most_radius));
+    const double least = std::min(state.style.hierarchy.least_radius, branch.most_radius);
+    out.radii.push_back(std::clamp(radius, least, branch.most_radius));
     out.turns.push_back(turn);
     out.copied.push_back(candidate.mirrored ? -(source + 1) : source + 1);
     if (!state.ground.inside(point)) {

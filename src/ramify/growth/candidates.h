@@ -17,7 +17,8 @@ struct Candidate {
 struct StepAim {
   int count = 0;                     // vertices to append
   bool guided = false;
-  std::optional<Vec2> join;          // px, a place to run into
+  std::optional<Vec2> toward;        // px, a place to go to: on the guide, or a branch to join
+  double pull = 0.0;                 // how strongly
 };
 
 // The `most` best windows by shape, intended heading, remaining length, reuse and histogram, no two of them neighbours in

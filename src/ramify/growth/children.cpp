@@ -16,6 +16,7 @@ constexpr double kMostWidening = 1.5;    // of its radius at the start
 constexpr double kDenseStart = 0.6;      // D beyond which a child's first stretch stands in others' way
 constexpr double kTooShort = 0.35;       // of the intended length: taken back, tried elsewhere
 constexpr double kPlaceSpread = 0.18;    // of the parent's length, around the place in the template
+constexpr double kOtherSide = 1.0;       // against the side the template's child leaves to: keeps the sides balanced
 constexpr double kSwapped = 0.6;         // children swapped for a similar one
 constexpr int kSimilar = 5;
 constexpr double kAlike = 0.5;           // squared log ratios: nothing less alike is swapped in
@@ -71,7 +72,8 @@ GrowingBranch plan_branch(const GrowthState& state, const ChildPlan& plan, Rng& 
   child.order = parent.order + 1;
   const double template_rim = bending.smooth_radius[bending.first[source.parent] + source.parent_vertex];
   const double start = template_start(state, plan.source);
-  const double radius = std::max(0.5, std::min(start * std::clamp(rim / template_rim, 0.75, 1.3), state.style.hierarchy.most_ratio * rim));
+  const double least = std::min(state.style.hierarchy.least_radius, std::max(0.5, rim));
+  const double radius = std::max(least, std::min(start * std::clamp(rim / template_rim, 0.75, 1.3), state.style.hierarchy.most_ratio * rim));
   child.radius_scale = radius / start;
   child.most_radius = std::max(radius, std::min(state.style.hierarchy.most_ratio * rim, kMostWidening * radius));
   child.points = {parent.points[plan.node] + direction_of(along + sign * source.rim_angle) * (rim + 0.5)};
@@ -126,21 +128,46 @@ struct Place {
   bool mirrored;
 };
 
-// Furcation value of the learnt classifier at a node, in standard deviations of nothing in particular: a nudge.
-double classifier_nudge(const GrowthState& state, const GrowingBranch& branch, int node) {
+// Value of the learnt classifier at a node, by the shape around it and the distances to the forks there are.
+double fork_value(const GrowthState& state, const GrowingBranch& branch, int node) {
   const FurcationModel& model = state.style.furcation;
-  if (!model.trained) return 0.0;
   int before = node, after = branch.count() - 1 - node;
-  for (const int fork : branch.forks) {
-    if (fork <= node) before = std::min(before, node - fork);
-    if (fork >= node) after = std::min(after, fork - node);
+  for (const Fork& fork : branch.forks) {
+    if (fork.node <= node) before = std::min(before, node - fork.node);
+    if (fork.node >= node) after = std::min(after, fork.node - node);
   }
   const std::vector<double> features = furcation_features(branch.turns, branch.radii, node, before, after,
                                                           state.style.unit_radius, state.style.bending, model);
-  return 0.25 * std::clamp(furcation_value(model, features), -2.0, 2.0);
+  return furcation_value(model, features);
 }
 
-std::vector<Place> rank_places(const GrowthState& state, int number, int source, Rng& rng) {
+// The classifier nudges, no more: as a bonus for places it changed nothing measurable (PICTURES 12.2-9).
+double classifier_nudge(const GrowthState& state, const GrowingBranch& branch, int node) {
+  if (!state.style.furcation.trained) return 0.0;
+  return 0.25 * std::clamp(fork_value(state, branch, node), -2.0, 2.0);
+}
+
+// The child template, and its mirroring, whose parent looks most like the branch around the node.
+ChildPlan best_plan_at(const GrowthState& state, int number, int node) {
+  ChildPlan best;
+  double highest = -1e300;
+  for (int b = 0; b < static_cast<int>(state.style.hierarchy.branches.size()); ++b) {
+    if (state.style.hierarchy.branches[b].parent == kNone) continue;
+    for (const bool mirrored : {false, true}) {
+      if (mirrored && !state.style.mirror) continue;
+      const double likeness = junction_likeness(state, state.branches[number], node, b, mirrored);
+      if (likeness <= highest) continue;
+      highest = likeness;
+      best.parent = number;
+      best.node = node;
+      best.source = b;
+      best.mirrored = mirrored;
+    }
+  }
+  return best;
+}
+
+std::vector<Place> rank_places(const GrowthState& state, int number, int source, int wanted_side, Rng& rng) {
   const GrowingBranch& branch = state.branches[number];
   const SourceBranch& child = state.style.hierarchy.branches[source];
   const BendingModel& bending = state.style.bending;
@@ -149,17 +176,17 @@ std::vector<Place> rank_places(const GrowthState& state, int number, int source,
   const int last = branch.count() - 1;
   std::vector<Place> places;
   for (int node = 2; node < last - 1; ++node) {
-    if (fork_blocked(state, branch, node)) continue;
     const double off = (node / static_cast<double>(last) - place_in_template) / kPlaceSpread;
     const double width = std::log(branch.radii[node] / parent_radius_of(state, source));
     const double common = -0.5 * off * off - 0.5 * width * width + classifier_nudge(state, branch, node);
     for (const bool mirrored : {false, true}) {
-      if (mirrored && !state.style.mirror) continue;
+      const int side = state.side_of(source, mirrored);
+      if ((mirrored && !state.style.mirror) || fork_blocked(state, branch, node, side)) continue;
       const double direction = tangent_at(branch, node) + (mirrored ? -0.8 : 0.8) * child.start_angle;
       const double skip = branch.radii[node] + 0.6 * state.style.hierarchy.spacing;
       const double room = free_way(state, branch.points[node], direction, skip, reach);
       places.push_back({common + 2.0 * junction_likeness(state, branch, node, source, mirrored) +
-                            1.5 * std::log(0.08 + room) + 0.4 * rng.normal(),
+                            1.5 * std::log(0.08 + room) + 0.4 * rng.normal() - (side == wanted_side ? 0.0 : kOtherSide),
                         node, mirrored});
     }
   }
@@ -182,10 +209,14 @@ Vec2 tree_root(const GrowthState& state, int branch) {
   return state.branches[branch].points.front();
 }
 
-bool fork_blocked(const GrowthState& state, const GrowingBranch& branch, int node) {
+bool fork_blocked(const GrowthState& state, const GrowingBranch& branch, int node, int side) {
   const int gap = std::max(state.style.hierarchy.furcation_gap, 2);
+  // Ways to one side within the exemplar's own gaps would run in parallel.
+  const int side_gap = std::max(gap, state.style.hierarchy.side_gap);
   if (!state.ground.inside(branch.points[node])) return true;
-  return std::any_of(branch.forks.begin(), branch.forks.end(), [&](int fork) { return std::abs(fork - node) <= gap; });
+  return std::any_of(branch.forks.begin(), branch.forks.end(), [&](const Fork& fork) {
+    return std::abs(fork.node - node) <= (fork.side == side ? side_gap : gap);
+  });
 }
 
 double junction_likeness(const GrowthState& state, const GrowingBranch& parent, int node, int source, bool mirrored) {
@@ -239,31 +270,52 @@ int place_child(GrowthState& state, const ChildPlan& plan, Rng& rng) {
   return kNone;
 }
 
-std::vector<int> list_children(const GrowthState& state, int number, double share, Rng& rng) {
+std::vector<WantedChild> list_children(const GrowthState& state, int number, double share, Rng& rng) {
   const GrowingBranch& branch = state.branches[number];
   const int own = state.style.bending.length_of(branch.source) - 1;
   const double ratio = (branch.count() - 1) / static_cast<double>(std::max(1, own));
-  std::vector<int> list;
+  std::vector<WantedChild> list;
   for (int b = 0; b < static_cast<int>(state.style.hierarchy.branches.size()); ++b) {
     if (state.style.hierarchy.branches[b].parent != branch.source) continue;
     // The large ones make the hierarchy: only small ones are left to the room there is.
     const bool large = state.style.bending.length_of(b) > 0.25 * own;
     for (double expected = (large ? 1.0 : share) * std::min(ratio, 2.0); expected > 0.0; expected -= 1.0) {
       if (rng.uniform() >= expected) continue;
-      list.push_back(rng.uniform() < kSwapped ? similar_template(state, b, rng) : b);
+      list.push_back({rng.uniform() < kSwapped ? similar_template(state, b, rng) : b, state.side_of(b, branch.mirrored)});
     }
   }
-  std::stable_sort(list.begin(), list.end(), [&](int a, int b) {
-    return state.style.bending.length_of(a) > state.style.bending.length_of(b);
+  std::stable_sort(list.begin(), list.end(), [&](const WantedChild& a, const WantedChild& b) {
+    return state.style.bending.length_of(a.source) > state.style.bending.length_of(b.source);
   });
   return list;
 }
 
-int settle_child(GrowthState& state, int number, int source, Rng& rng) {
+int fork_at_likeliest(GrowthState& state, int number, Rng& rng) {
+  const FurcationModel& model = state.style.furcation;
+  const GrowingBranch& branch = state.branches[number];
+  std::vector<std::pair<double, int>> ranked;
+  for (int node = 2; node + 2 < branch.count(); ++node) {
+    if (fork_blocked(state, branch, node, 0)) continue;
+    // Without a classifier the renewal process knows gaps only: any free vertex is as good as the other.
+    const double probability =
+        model.weight.empty() ? rng.uniform() : furcation_probability(model, fork_value(state, branch, node));
+    ranked.emplace_back(-probability, node);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  for (std::size_t i = 0; i < std::min<std::size_t>(kTries, ranked.size()); ++i) {
+    const ChildPlan plan = best_plan_at(state, number, ranked[i].second);
+    if (state.style.hierarchy.branches[plan.source].parent == kNone) return kNone;
+    const int child = place_child(state, plan, rng);
+    if (child != kNone) return child;
+  }
+  return kNone;
+}
+
+int settle_child(GrowthState& state, int number, const WantedChild& wanted, Rng& rng) {
   std::vector<Place> tried;
   // A large child is worth a long search.
-  const int tries = state.style.bending.length_of(source) > 8 * state.style.bending.extension ? 3 * kTries : kTries;
-  for (const Place& place : rank_places(state, number, source, rng)) {
+  const int tries = state.style.bending.length_of(wanted.source) > 8 * state.style.bending.extension ? 3 * kTries : kTries;
+  for (const Place& place : rank_places(state, number, wanted.source, wanted.side, rng)) {
     const bool near = std::any_of(tried.begin(), tried.end(), [&](const Place& other) {
       return other.mirrored == place.mirrored && std::abs(other.node - place.node) < 3;
     });
@@ -272,7 +324,7 @@ int settle_child(GrowthState& state, int number, int source, Rng& rng) {
     ChildPlan plan;
     plan.parent = number;
     plan.node = place.node;
-    plan.source = source;
+    plan.source = wanted.source;
     plan.mirrored = place.mirrored;
     const int child = place_child(state, plan, rng);
     if (child != kNone) return child;

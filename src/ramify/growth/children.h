@@ -19,12 +19,21 @@ struct ChildPlan {
 // Starts and grows a child. Returns its number, or kNone when there is no room (then nothing has changed).
 int place_child(GrowthState& state, const ChildPlan& plan, Rng& rng);
 
+struct WantedChild {
+  int source = 0;  // template
+  int side = 1;    // the side it leaves to in the exemplar: +1 clockwise, -1
+};
+
 // The children a branch should have, as templates, longest first: its own template's, some swapped for similar ones.
 // share: of the template's children that are wanted.
-std::vector<int> list_children(const GrowthState& state, int branch, double share, Rng& rng);
+std::vector<WantedChild> list_children(const GrowthState& state, int branch, double share, Rng& rng);
 
-// Tries to place one child with template `source` at the best places of the branch; kNone when none would do.
-int settle_child(GrowthState& state, int branch, int source, Rng& rng);
+// Tries to place one child at the best places of the branch; kNone when none would do.
+int settle_child(GrowthState& state, int branch, const WantedChild& wanted, Rng& rng);
+
+// One child at the vertex of the highest furcation probability that is free, with the template that fits there best
+// (paper 002, section 4.3); kNone when none of the best vertices has room.
+int fork_at_likeliest(GrowthState& state, int branch, Rng& rng);
 
 // log Q of the branch around a node against the template's parent around its furcation, both sides (non-causal).
 double junction_likeness(const GrowthState& state, const GrowingBranch& parent, int node, int source, bool mirrored);
@@ -35,6 +44,7 @@ double tangent_at(const GrowingBranch& branch, int node);
 // Where the branch's tree begins, px.
 Vec2 tree_root(const GrowthState& state, int branch);
 
-bool fork_blocked(const GrowthState& state, const GrowingBranch& branch, int node);
+// Whether another child stands too near for one that leaves to `side` (+1, -1, or 0 = any).
+bool fork_blocked(const GrowthState& state, const GrowingBranch& branch, int node, int side);
 
 }  // namespace ramify

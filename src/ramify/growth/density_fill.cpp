@@ -20,12 +20,14 @@ class Filler {
   Filler(GrowthState& state, int most_order) : state_(state), most_order_(most_order), failures_(state.coverage.cells(), 0) {}
 
   void run() {
-    const int most_failures = state_.ground.painted() ? 400 : 40;
+    const int most_failures = state_.ground.painted() ? 1000 : 40;
+    // A branch every half reach would fill the plane twice over: beyond that the map asks for what cannot be.
+    const double most_length = 4.0 * state_.wanted_length + 4.0 * state_.ground.open_area() / state_.style.hierarchy.spacing;
     int failures = 0;
     for (int round = 0; round < kMostTries && failures < most_failures; ++round) {
       state_.monitor.check();
       if (state_.full() && !state_.ground.painted()) return;
-      if (state_.grown_length > 4.0 * state_.wanted_length) return;
+      if (state_.grown_length > most_length) return;
       if (state_.ground.painted() && state_.coverage.filled_share() > kPaintedShare) return;
       Rng rng = state_.rng.child("grow.fill", static_cast<std::uint64_t>(round));
       const int cell = pick_cell(rng);
@@ -45,10 +47,11 @@ class Filler {
 
   // An unfilled cell, drawn by weight, the farthest from what has grown of several.
   int pick_cell(Rng& rng) {
+    const int most_bans = state_.ground.painted() ? 5 : 2;
     std::vector<int> open;
     std::vector<double> weights;
     for (int c = 0; c < state_.coverage.cells(); ++c) {
-      if (state_.coverage.covered(c) || failures_[c] >= 2 || state_.coverage.weight(c) <= kBlack) continue;
+      if (state_.coverage.covered(c) || failures_[c] >= most_bans || state_.coverage.weight(c) <= kBlack) continue;
       open.push_back(c);
       weights.push_back(state_.coverage.weight(c));
     }
@@ -96,7 +99,7 @@ class Filler {
           const double share = headings.share[static_cast<std::size_t>(heading_bin(angle_of(way)))];
           if (headings.strength >= 0.15) distance *= 1.0 + 2.0 * (1.0 - share / most);
         }
-        if (distance >= best.distance || fork_blocked(state_, branch, i) || !sees(branch.points[i], goal)) continue;
+        if (distance >= best.distance || fork_blocked(state_, branch, i, 0) || !sees(branch.points[i], goal)) continue;
         best = {b, i, distance};
       }
     }

@@ -39,10 +39,16 @@ class Stepper {
     StepAim aim;
     aim.guided = guided_;
     if (wants_join(state_, branch)) {
-      if (late) aim.join = place_to_join();
+      if (late) aim.toward = place_to_join();
+      aim.pull = 3.0;
       remaining = std::max(remaining, m * state_.style.step);
     }
     aim.count = std::clamp(static_cast<int>(std::lround(remaining / state_.style.step)), 1, m);
+    if (guided_) {
+      const double ahead = state_.guide.arc_at(branch.points.back()) + 2.0 * aim.count * state_.style.step;
+      aim.toward = state_.guide.point_at(ahead);
+      aim.pull = 5.0;
+    }
     const std::vector<Candidate> all = find_candidates(state_, number_, aim, 4 * kBest);
     if (all.empty()) return false;
     const auto part = [&](std::size_t from, std::size_t to) {
@@ -250,6 +256,7 @@ void grow_branch(GrowthState& state, int number, Rng& rng, bool guided) {
     const GrowingBranch& branch = state.branches[number];
     if (branch.stop != GrowthStop::None) break;
     const double arc = branch.arc(state.style.step);
+    if (guided && state.guide.arc_at(branch.points.back()) > state.guide.length() - 0.5 * m * state.style.step) break;
     if (arc >= longest(state, branch) - 0.5 * state.style.step) break;
     if (stepper.step()) continue;
     if (branch.count() <= m + 1 || ++setbacks > 3) {

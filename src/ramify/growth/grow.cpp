@@ -2,7 +2,6 @@
 #include "ramify/growth/grow.h"
 
 #include <algorithm>
-#include <limits>
 #include <queue>
 
 #include "ramify/growth/children.h"
@@ -12,7 +11,7 @@
 namespace ramify {
 namespace {
 
-constexpr double kTemplateShare = 0.85;  // of the template's children; the rest goes where room is left (PICTURES 12.2-11)
+constexpr double kTemplateShare = 1.0;  // of the template's small children; what found no room is filled in where there is some
 
 // A child that is to be placed. Longest first over the whole tree, so that the large structure stands before the small
 // fills it; ties by age.
@@ -20,7 +19,7 @@ struct Job {
   int vertices = 0;  // of the template
   int age = 0;
   int parent = 0;
-  int source = 0;
+  WantedChild child;
   bool operator<(const Job& other) const {
     return vertices != other.vertices ? vertices < other.vertices : age > other.age;
   }
@@ -32,8 +31,8 @@ void grow_children(GrowthState& state, const std::vector<int>& roots, int most_o
   const auto plan_children = [&](int branch) {
     if (state.branches[branch].order >= most_order) return;
     Rng rng = state.rng.child("grow.children", static_cast<std::uint64_t>(branch));
-    for (const int source : list_children(state, branch, kTemplateShare, rng)) {
-      open.push({state.style.bending.length_of(source), age++, branch, source});
+    for (const WantedChild& child : list_children(state, branch, kTemplateShare, rng)) {
+      open.push({state.style.bending.length_of(child.source), age++, branch, child});
     }
   };
   for (const int root : roots) plan_children(root);
@@ -41,8 +40,26 @@ void grow_children(GrowthState& state, const std::vector<int>& roots, int most_o
     const Job job = open.top();
     open.pop();
     Rng rng = state.rng.child("grow.child", static_cast<std::uint64_t>(job.age));
-    const int child = settle_child(state, job.parent, job.source, rng);
+    const int child = settle_child(state, job.parent, job.child, rng);
     if (child != kNone) plan_children(child);
+    state.monitor.report(std::min(0.9, 0.9 * state.grown_length / state.wanted_length));
+  }
+}
+
+// The paper's order and places: branch after branch, d furcations each at the vertices of the highest probability, one
+// after the other with the index distances counted anew; d from the exemplar's rate for the order.
+void grow_by_probability(GrowthState& state, std::vector<int> open, int most_order) {
+  for (std::size_t next = 0; next < open.size() && !state.full(); ++next) {
+    const int branch = open[next], order = state.branches[branch].order;
+    if (order >= most_order) continue;
+    Rng rng = state.rng.child("grow.paper", static_cast<std::uint64_t>(branch));
+    const double expected = state.style.furcation.rate[static_cast<std::size_t>(std::min(order, kHeadingOrders - 1))] *
+                            state.branches[branch].count();
+    const int wanted = static_cast<int>(expected + rng.uniform());
+    for (int i = 0; i < wanted && !state.full(); ++i) {
+      const int child = fork_at_likeliest(state, branch, rng);
+      if (child != kNone) open.push_back(child);
+    }
     state.monitor.report(std::min(0.9, 0.9 * state.grown_length / state.wanted_length));
   }
 }
@@ -78,11 +95,16 @@ Skeleton grow_from_style(const Style& style, const GrowthTarget& target, const G
     options.candidates = std::min(options.candidates, 2);
   }
   GrowthState state(style, target, options, rng, monitor);
-  const int most_order = options.levels > 0 ? options.levels - 1 : std::numeric_limits<int>::max();
+  // Orders the exemplar has not are no style; a painted map may need a few to fill its corners.
+  const int most_order = options.levels > 0 ? options.levels - 1 : style.hierarchy.highest_order + (state.ground.painted() ? 12 : 0);
   const std::vector<int> roots = grow_roots(state);
   monitor.report(0.2);
-  grow_children(state, roots, most_order);
-  if (most_order > 0) fill_wanted(state, most_order);
+  if (options.parent_first) {
+    grow_by_probability(state, roots, most_order);
+  } else {
+    grow_children(state, roots, most_order);
+    if (most_order > 0) fill_wanted(state, most_order);
+  }
   monitor.report(1.0);
   if (state.branches.empty()) {
     throw InputError("", "nothing could grow on this canvas: it is too small or too narrow for branches " +

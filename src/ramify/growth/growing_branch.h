@@ -17,6 +17,11 @@ enum class GrowthStop {
   Stuck   // found no way on
 };
 
+struct Fork {
+  int node = 0;
+  int side = 0;  // +1 clockwise of the parent's direction, -1 the other way
+};
+
 struct GrowingBranch {
   int source = 0;                 // template: a branch of the exemplar
   bool mirrored = false;          // the template is used mirrored
@@ -34,7 +39,7 @@ struct GrowingBranch {
   std::optional<double> heading;  // rad, intended direction of its chord
   double course = 0.0;            // 0 = straight along the heading, 1 = bending at large as the template does
   GrowthStop stop = GrowthStop::None;
-  std::vector<int> forks;         // nodes where children leave
+  std::vector<Fork> forks;        // where children leave, in the order they were placed
   bool grown = true;              // false once taken back
 
   int count() const { return static_cast<int>(points.size()); }

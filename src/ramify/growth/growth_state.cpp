@@ -39,7 +39,7 @@ GrowthState::GrowthState(const Style& style_, const GrowthTarget& target_, const
       rng(rng_),
       ground(target),
       guide(target, options.guide_width > 0.0 ? options.guide_width : 1.5 * bend_amplitude(style.bending)),
-      coverage(target.size, style.hierarchy.spacing,
+      coverage(target.size, (ground.painted() ? 0.6 : 1.0) * style.hierarchy.spacing,
                [&](const Vec2& p) { return ground.painted() ? ground.wanted(p) : ground.wanted(p) * habitat_at(style, target, p); }),
       occupancy(ground, widest_radius(style, target), 0.5 * style.hierarchy.spacing, style.step),
       matcher(style.bending),
@@ -60,11 +60,15 @@ int GrowthState::start(const GrowingBranch& branch) {
   const int number = static_cast<int>(branches.size()) - 1;
   if (branch.parent != kNone) {
     occupancy.add_link(branches[branch.parent].points[branch.parent_node], branch.points.front(), number);
-    branches[branch.parent].forks.push_back(branch.parent_node);
+    branches[branch.parent].forks.push_back({branch.parent_node, side_of(branch.source, branch.mirrored)});
   }
   coverage.cover(branch.points.front(), branch.radii.front(), 1);
   ++template_uses[branch.source];
   return number;
+}
+
+int GrowthState::side_of(int source, bool mirrored) const {
+  return (style.hierarchy.branches[source].start_angle > 0.0) != mirrored ? 1 : -1;
 }
 
 void GrowthState::commit(int number, const Extension& extension) {

@@ -20,6 +20,8 @@ struct GrowthState {
   void take_back(int number);
   // Books a branch that has its first node; returns its number.
   int start(const GrowingBranch& branch);
+  // +1 when a child with this template leaves clockwise, else -1.
+  int side_of(int source, bool mirrored) const;
   // The template profile's radius at an arc length, px.
   double template_radius(const GrowingBranch& branch, double arc) const;
 

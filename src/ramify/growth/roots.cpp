@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "ramify/growth/candidates.h"
 #include "ramify/growth/children.h"
 #include "ramify/growth/extension.h"
 
@@ -49,9 +50,11 @@ RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tr
   const Vec2 place = on_this_canvas(state, state.style.bending.point[state.style.bending.first[source]]);
   const Vec2 jitter = branch.starts_on_frame ? slide_along_frame(place, tree_jitter, size) : tree_jitter;
   plan.position = (place + jitter).cwiseMax(Vec2::Zero()).cwiseMin(Vec2(size.width - 1, size.height - 1));
-  const double turn = kTurnJitter * rng.normal();
+  // The surer the exemplar's main direction, the less it is disturbed.
+  const double jitter_scale = kTurnJitter * std::clamp(2.0 * (1.0 - state.style.hierarchy.headings[0].strength), 0.25, 1.0);
+  const double turn = jitter_scale * rng.normal();
   plan.direction = template_direction(state.style, source) + turn;
-  plan.heading = template_heading(state.style, source) + 0.5 * turn + kTurnJitter * rng.normal();
+  plan.heading = template_heading(state.style, source) + 0.5 * turn + jitter_scale * rng.normal();
   plan.length = template_length(state.style, source) * std::exp(0.15 * rng.normal());
   return plan;
 }
@@ -59,6 +62,7 @@ RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tr
 // Straight points from outside the canvas to a root on the frame; none for a root inside.
 Extension lead_in(const GrowthState& state, const GrowingBranch& root) {
   Extension lead;
+  if (state.ground.painted()) return lead;
   const Vec2 back = direction_of(root.start_direction) * -state.style.step, place = root.points.front();
   const int most = 1 + static_cast<int>(1.5 * root.radii.front() / state.style.step);
   if (state.ground.inside(place + 2.0 * back) && state.ground.inside(place + back)) return lead;
@@ -69,6 +73,13 @@ Extension lead_in(const GrowthState& state, const GrowingBranch& root) {
     lead.copied.push_back(0);
   }
   return lead;
+}
+
+// The paper's start: the first k + 1 vertices of the main branch are the exemplar's own, as far as they fit.
+void copy_stem(GrowthState& state, int number) {
+  const int first = state.style.bending.first[state.branches[number].source];
+  const Extension stem = extend_by(state, number, {first, false, 0.0, 0.0}, state.style.bending.history);
+  if (!stem.points.empty() && !state.occupancy.meet(state.branches, number, stem).blocked) state.commit(number, stem);
 }
 
 // All roots of the exemplar, each tree moved as one: strokes from one place stay together.
@@ -180,6 +191,7 @@ int place_root(GrowthState& state, const RootPlan& plan, Rng& rng) {
   root.points.front() -= direction_of(root.start_direction) * (static_cast<double>(lead.points.size()) * state.style.step);
   const int number = state.start(root);
   state.commit(number, lead);
+  if (state.options.copy_stem && state.branches.size() == 1) copy_stem(state, number);
   if (!plan.guided) aim_at_frame(state, state.branches[number]);
   state.branches[number].length += static_cast<double>(lead.points.size()) * state.style.step;
   grow_branch(state, number, rng, plan.guided);

@@ -17,6 +17,8 @@ WindowMatcher::WindowMatcher(const BendingModel& model) : model_(model), pad_(mo
       place_.push_back(static_cast<int>(alpha_.size()));
       in_branch_.push_back(i - model.first[b]);
       after_.push_back(model.first[b + 1] - 1 - i);
+      const int edge = std::max(i, model.first[b] + 1);  // the first vertex has no edge before it: it takes the one after
+      along_.push_back((model.point[edge] - model.point[edge - 1]).stableNormalized());
       alpha_.push_back(static_cast<float>(model.alpha[i]));
       radius_.push_back(static_cast<float>(model.radius[i]));
       alpha_sums_.push_back(alpha_sums_.back() + model.alpha[i] * model.alpha[i]);
@@ -25,6 +27,12 @@ WindowMatcher::WindowMatcher(const BendingModel& model) : model_(model), pad_(mo
     alpha_.insert(alpha_.end(), pad_, 0.0f);
     radius_.insert(radius_.end(), pad_, 0.0f);
   }
+}
+
+Vec2 WindowMatcher::displacement(int vertex, int count, bool from_start) const {
+  const Vec2 way = model_.point[vertex + count] - model_.point[vertex];
+  const Vec2& along = along_[vertex + (from_start && after_[vertex] > 0 ? 1 : 0)];
+  return {along.dot(way), cross(along, way)};
 }
 
 namespace {

@@ -24,6 +24,10 @@ class WindowMatcher {
   // Compares the last k + 1 nodes of the branch (fewer when it has fewer, or the exemplar's branch has).
   void match(const GrowingBranch& branch, int ahead, bool raw, WindowQualities& out) const;
 
+  // From an exemplar vertex to the one `count` further on, px, in the frame of the edge that leads to it (of the edge that
+  // leads on where `from_start`): x ahead, y clockwise. count <= following(vertex).
+  Vec2 displacement(int vertex, int count, bool from_start) const;
+
   // Vertices that follow an exemplar vertex in its branch.
   int following(int vertex) const { return after_[static_cast<std::size_t>(vertex)]; }
 
@@ -34,6 +38,7 @@ class WindowMatcher {
   std::vector<int> place_;          // vertex -> padded index
   std::vector<int> in_branch_;      // vertex -> index within its branch
   std::vector<int> after_;          // vertex -> vertices that follow in its branch
+  std::vector<Vec2> along_;         // vertex -> unit vector of the edge that leads to it
   std::vector<float> alpha_;        // padded
   std::vector<float> radius_;       // padded
   std::vector<double> alpha_sums_;  // of squares over vertices, prefix

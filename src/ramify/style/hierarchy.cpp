@@ -98,10 +98,12 @@ void measure_tips(Hierarchy& hierarchy, const BendingModel& bending) {
   }
 }
 
-void measure_gaps(Hierarchy& hierarchy) {
+// Vertices between neighbouring furcations that leave to the sides wanted (+1 clockwise, -1, or 0 = either), sorted.
+std::vector<int> furcation_gaps(const Hierarchy& hierarchy, int side) {
   std::vector<std::vector<int>> leaves(hierarchy.branches.size());
   for (const SourceBranch& branch : hierarchy.branches) {
-    if (branch.parent != kNone) leaves[branch.parent].push_back(branch.parent_vertex);
+    if (branch.parent == kNone || (side != 0 && branch.start_angle * side <= 0.0)) continue;
+    leaves[branch.parent].push_back(branch.parent_vertex);
   }
   std::vector<int> gaps;
   for (std::vector<int>& places : leaves) {
@@ -109,7 +111,20 @@ void measure_gaps(Hierarchy& hierarchy) {
     for (std::size_t i = 1; i < places.size(); ++i) gaps.push_back(places[i] - places[i - 1]);
   }
   std::sort(gaps.begin(), gaps.end());
+  return gaps;
+}
+
+void measure_gaps(Hierarchy& hierarchy) {
+  const std::vector<int> gaps = furcation_gaps(hierarchy, 0);
   hierarchy.furcation_gap = gaps.empty() ? 1 : std::max(1, gaps[gaps.size() / 20]);
+  std::vector<int> same_side = furcation_gaps(hierarchy, 1);
+  const std::vector<int> others = furcation_gaps(hierarchy, -1);
+  same_side.insert(same_side.end(), others.begin(), others.end());
+  std::sort(same_side.begin(), same_side.end());
+  hierarchy.side_gap = same_side.empty() ? hierarchy.furcation_gap : std::max(1, same_side[same_side.size() / 10]);
+  for (const SourceBranch& branch : hierarchy.branches) {
+    hierarchy.highest_order = std::max(hierarchy.highest_order, branch.order);
+  }
 }
 
 // No child is thicker than its parent (PICTURES 12.2-3), but where the exemplar is rooted at a thin end they are.
@@ -180,6 +195,9 @@ void measure_hierarchy(Hierarchy& hierarchy, const BendingModel& bending, Size s
   measure_ratio(hierarchy);
   measure_habitat(hierarchy, bending, size);
   hierarchy.spacing = measure_spacing(bending, size);
+  std::vector<double> radii = bending.radius;
+  std::sort(radii.begin(), radii.end());
+  hierarchy.least_radius = std::max(0.5, radii[radii.size() * 3 / 100]);
   hierarchy.total_length = 0.0;
   for (int b = 0; b < bending.branch_count(); ++b) hierarchy.total_length += (bending.length_of(b) - 1) * bending.step;
 }

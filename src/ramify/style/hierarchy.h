@@ -47,6 +47,9 @@ struct Hierarchy {
   std::vector<double> lag_turn;        // rad: 95 % of the turns between directions that many vertices apart
   std::vector<double> tip_profile;     // radius j vertices before a tip over that 2m vertices before it; 2m + 1 entries
   double most_ratio = 0.95;            // radius of a child over its parent's that four in five stay below, at least 0.95
+  double least_radius = 0.5;           // px: 3 % of the vertices are thinner
+  int side_gap = 1;                    // vertices: 10 % of the gaps between furcations to the same side are shorter
+  int highest_order = 0;
   double spacing = 32.0;               // px, median distance to the nearest branch midway between branches
   double total_length = 0.0;           // px
   int furcation_gap = 1;               // vertices: 5 % of the gaps between furcations are shorter

@@ -78,6 +78,9 @@ Json hierarchy_json(const Hierarchy& h) {
           {"lag_turn", h.lag_turn},
           {"tip_profile", h.tip_profile},
           {"most_ratio", h.most_ratio},
+          {"least_radius", h.least_radius},
+          {"side_gap", h.side_gap},
+          {"highest_order", h.highest_order},
           {"spacing", h.spacing},
           {"total_length", h.total_length},
           {"furcation_gap", h.furcation_gap},
@@ -254,6 +257,9 @@ Hierarchy read_hierarchy(const Reader& in, const BendingModel& bending) {
   h.lags = in["lags"].wholes(1, 1 << 20);
   h.lag_turn = in["lag_turn"].reals(h.lags.size());
   h.tip_profile = in["tip_profile"].reals(static_cast<std::size_t>(2 * bending.extension + 1));
+  h.least_radius = in["least_radius"].real(1e-9, kHuge);
+  h.side_gap = in["side_gap"].whole(1, 1 << 20);
+  h.highest_order = in["highest_order"].whole(0, 1 << 20);
   h.most_ratio = in["most_ratio"].real(1e-3, 1e3);
   h.spacing = in["spacing"].real(1e-3, kHuge);
   h.total_length = in["total_length"].real(0.0, 1e15);
