@@ -125,7 +125,7 @@ BackgroundPlan plan_scene_background(const Exemplar& exemplar, const ComposeScen
   BackgroundOptions background;
   background.mode = options.background;
   background.mirror = options.mirror;
-  return plan_background(exemplar, scene.habitat, canvas, background, rng);
+  return plan_background(exemplar, scene.habitat, scene.plate, canvas, background, rng);
 }
 
 Mask on_canvas(const Mask& photo_map, const BackgroundPlan& plan) {
