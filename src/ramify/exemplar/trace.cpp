@@ -32,6 +32,17 @@ Mask excluded_pixels(const Photo& photo, const std::vector<Region>& regions) {
   return excluded;
 }
 
+// Pixels of one role, or an empty mask where there are none.
+Mask role_pixels(const Photo& photo, const std::vector<Region>& regions, RegionRole role) {
+  if (std::none_of(regions.begin(), regions.end(), [&](const Region& r) { return r.role == role; })) return {};
+  const Image<std::uint8_t> map = region_map(regions, photo.color.size(), photo.alpha);
+  Mask mask(photo.color.size());
+  for (std::size_t i = 0; i < map.pixels().size(); ++i) {
+    mask.pixels()[i] = map.pixels()[i] == static_cast<std::uint8_t>(role) ? 255 : 0;
+  }
+  return mask;
+}
+
 void draw_path(Mask& lines, const std::vector<Pixel>& path) {
   for (const Pixel& p : path) lines(p.x, p.y) = 255;
 }
@@ -191,6 +202,23 @@ Annotation thinned_out(const Annotation& full) {
   return out;
 }
 
+// Single wide readings beside junctions and knots are not the branch's width: radii may leave the median of their
+// neighbourhood by a third only.
+void calm_radii(Annotation& annotation) {
+  for (AnnotatedBranch& b : annotation.branches) {
+    const std::vector<double> measured = b.radii;
+    const int n = static_cast<int>(measured.size());
+    for (int i = 0; i < n; ++i) {
+      const int half = 8 + static_cast<int>(2.0 * std::min(measured[i], 30.0));
+      std::vector<double> near(measured.begin() + std::max(0, i - half), measured.begin() + std::min(n, i + half + 1));
+      const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+      std::nth_element(near.begin(), middle, near.end());
+      b.radii[i] = std::clamp(measured[i], 0.67 * *middle, 1.33 * *middle);
+    }
+    b.radii = smoothed(b.radii, 2.0);
+  }
+}
+
 void sign_annotation(Annotation& annotation, const Photo& photo, const RidgeEvidence& evidence) {
   annotation.photo_file = photo.name;
   annotation.photo_sha256 = photo.sha256;
@@ -216,7 +244,7 @@ std::vector<OptionField> describe(TraceOptions& o) {
       text("through", o.through, "Strokes to follow by live wire: \"x,y x,y; x,y x,y\" in px."),
       flag("automatic", o.automatic, "With --through: find the other branches as well."),
       flag("straight", o.straight, "With --through: follow the points alone, not the picture."),
-      text("root", o.root, "Where the structure starts: \"x,y\" in px."),
+      text("root", o.root, "Where the structure starts: \"x,y\" in px, or several points."),
       text("regions", o.regions, "Polygons \"outside: x,y x,y x,y; keep: …; ignore: …; landmark: …\" in px."),
   };
 }
@@ -252,9 +280,12 @@ Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Mo
   measure_graph(graph, evidence, options);
   graph_monitor.report(0.8);
   TreeOptions tree;
-  if (!root.empty()) tree.root = root.front();
-  else if (strokes && !options.automatic) tree.root = parse_strokes("through", options.through).front().front();
-  Annotation annotation = thinned_out(annotation_from_graph(graph, photo.color.size(), tree));
+  tree.roots = root;
+  tree.outside = role_pixels(photo, regions, RegionRole::Outside);
+  if (root.empty() && strokes && !options.automatic) tree.roots = {parse_strokes("through", options.through).front().front()};
+  Annotation annotation = annotation_from_graph(graph, photo.color.size(), tree);
+  calm_radii(annotation);
+  annotation = thinned_out(annotation);
   sign_annotation(annotation, photo, evidence);
   annotation.regions = regions;
   return annotation;

@@ -29,7 +29,7 @@ struct TraceOptions {
   std::string through;         // px "x,y x,y …; x,y …": strokes to follow by live wire
   bool automatic = false;      // with `through`: find the other branches as well
   bool straight = false;       // with `through`: follow the points alone, not the picture
-  std::string root;            // px "x,y": where the structure starts
+  std::string root;            // px "x,y x,y …": where the structure starts
   std::string regions;         // "outside: x,y x,y x,y …; keep: …; ignore: …; landmark: …" polygons, px
 };
 std::vector<OptionField> describe(TraceOptions& options);

@@ -219,7 +219,11 @@ TraceGraph without_passing_nodes(const TraceGraph& graph) {
 }
 
 TraceGraph pruned(TraceGraph graph, const ScalarImage& radius, const PruneOptions& options) {
-  graph = without_passing_nodes(merged_junctions(std::move(graph), radius, options.merge_factor));
+  // Each round merges pairs; wide water has clusters of junctions on its medial axis.
+  for (std::size_t before = graph.nodes.size() + 1; graph.nodes.size() < before;) {
+    before = graph.nodes.size();
+    graph = without_passing_nodes(merged_junctions(std::move(graph), radius, options.merge_factor));
+  }
   for (;;) {
     const auto incident = graph.edges_of_nodes();
     std::vector<std::pair<double, int>> spurs;

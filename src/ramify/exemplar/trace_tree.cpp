@@ -4,299 +4,288 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <set>
 
+#include "ramify/exemplar/trace_plan.h"
 #include "ramify/exemplar/traced_line.h"
+#include "ramify/image/filter.h"
 
 namespace ramify {
 namespace {
 
-double mean_radius(const TraceEdge& e) {
-  return std::accumulate(e.radii.begin(), e.radii.end(), 0.0) / static_cast<double>(e.radii.size());
-}
+constexpr double kRootReach = 0.05;    // of the larger side: how far from a given root the structure may be
+constexpr std::size_t kMostRoots = 48; // ends tried as roots, the thickest ones
 
-// Radius of an edge near one of its ends, beyond the other branches' width.
-double end_radius(const TraceEdge& e, bool at_from) {
-  const std::size_t i = std::min(e.radii.size() - 1, static_cast<std::size_t>(6));
-  return at_from ? e.radii[i] : e.radii[e.radii.size() - 1 - i];
-}
-
-// Direction in which an edge leaves one of its ends.
-Vec2 leaving(const TraceEdge& e, bool at_from) {
-  const int n = static_cast<int>(e.line.size());
-  const int reach = std::min(n - 1, std::max(8, static_cast<int>(2.0 * end_radius(e, at_from))));
-  const Vec2 d = at_from ? Vec2(e.line[reach] - e.line[0]) : Vec2(e.line[n - 1 - reach] - e.line[n - 1]);
-  return d.norm() > 0.0 ? Vec2(d.normalized()) : Vec2(1.0, 0.0);
-}
-
-// The graph being ordered: which edges are in the tree, and the tree's shape once a root is chosen.
-struct Forest {
-  const TraceGraph& graph;
-  std::vector<std::vector<int>> incident;
-  std::vector<bool> in_tree;
-  std::vector<int> component;  // of a node
-};
-
-int other_end(const TraceEdge& e, int node) { return e.from == node ? e.to : e.from; }
-
-// Maximum spanning forest by thickness x length x confidence (Kruskal).
-Forest spanning_forest(const TraceGraph& graph) {
-  Forest f{graph, graph.edges_of_nodes(), std::vector<bool>(graph.edges.size(), false),
-           std::vector<int>(graph.nodes.size())};
-  std::vector<int> order(graph.edges.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::vector<double> weight;
-  for (const TraceEdge& e : graph.edges) weight.push_back(mean_radius(e) * line_length(e.line) * (0.05 + e.confidence));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weight[a] > weight[b]; });
-  std::iota(f.component.begin(), f.component.end(), 0);
+// Component of every node (the smallest node index in it).
+std::vector<int> components_of(const TraceGraph& graph) {
+  std::vector<int> parent(graph.nodes.size());
+  std::iota(parent.begin(), parent.end(), 0);
   const auto find = [&](int i) {
-    while (f.component[i] != i) i = f.component[i] = f.component[f.component[i]];
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  for (const int i : order) {
-    const int a = find(graph.edges[i].from), b = find(graph.edges[i].to);
-    if (a == b) continue;
-    f.component[a] = b;
-    f.in_tree[i] = true;
+  for (const TraceEdge& e : graph.edges) {
+    const int a = find(e.from), b = find(e.to);
+    parent[std::max(a, b)] = std::min(a, b);
   }
-  for (std::size_t n = 0; n < graph.nodes.size(); ++n) f.component[n] = find(static_cast<int>(n));
-  return f;
+  for (std::size_t n = 0; n < parent.size(); ++n) parent[n] = find(static_cast<int>(n));
+  return parent;
 }
 
-// How well the forks open forwards and get thinner when the component hangs from `root` (PICTURES 12.2-2).
-double root_score(const Forest& f, int root, Size size, double margin) {
-  double sum = 0.0;
-  int forks = 0;
-  std::vector<std::pair<int, int>> stack{{root, kNone}};  // node, edge it was reached by
-  while (!stack.empty()) {
-    const auto [node, by] = stack.back();
-    stack.pop_back();
-    for (const int e : f.incident[node]) {
-      if (!f.in_tree[e] || e == by) continue;
-      const TraceEdge& child = f.graph.edges[e];
-      if (by != kNone) {
-        const TraceEdge& parent = f.graph.edges[by];
-        const double cosine = -leaving(parent, parent.from == node).dot(leaving(child, child.from == node));
-        const double ratio = end_radius(parent, parent.from == node) / end_radius(child, child.from == node);
-        sum += cosine + 0.5 * std::log(ratio);
-        ++forks;
-      }
-      stack.emplace_back(other_end(child, node), e);
+std::vector<int> given_roots(const TraceGraph& graph, Size size, const TreeOptions& options) {
+  std::vector<int> roots;
+  for (const Vec2& p : options.roots) {
+    int nearest = 0;
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
+      if ((graph.nodes[n] - p).norm() < (graph.nodes[nearest] - p).norm()) nearest = static_cast<int>(n);
     }
+    if ((graph.nodes[nearest] - p).norm() < kRootReach * std::max(size.width, size.height)) roots.push_back(nearest);
   }
-  const int first = f.incident[root].front();
-  const TraceEdge& e = f.graph.edges[first];
-  const double r = end_radius(e, e.from == root);
-  const Vec2 p = f.graph.nodes[root];
-  const double edge = std::min({p.x(), p.y(), size.width - 1 - p.x(), size.height - 1 - p.y()});
-  return (forks ? sum / forks : 0.0) + 0.5 * std::log(r) + (edge < margin + r ? 0.3 : 0.0);
+  return roots;
 }
 
-int choose_root(const Forest& f, const std::vector<int>& nodes, Size size, const TreeOptions& options) {
-  if (options.root) {
-    // Only a root really pointed at counts; other components choose their own.
-    int nearest = nodes.front();
-    for (const int n : nodes) {
-      if ((f.graph.nodes[n] - *options.root).norm() < (f.graph.nodes[nearest] - *options.root).norm()) nearest = n;
+// Ends that the frame, or the rim of what the photo shows, has cut.
+std::vector<bool> frame_nodes(const TraceGraph& graph, Size size, const TreeOptions& options) {
+  const auto incident = graph.edges_of_nodes();
+  const ScalarImage away = options.outside.empty() ? ScalarImage() : distance_to(options.outside);
+  std::vector<bool> on_frame(graph.nodes.size(), false);
+  for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
+    if (incident[n].size() != 1) continue;
+    const TraceEdge& e = graph.edges[incident[n].front()];
+    const Vec2 p = graph.nodes[n];
+    double edge = std::min({p.x(), p.y(), size.width - 1 - p.x(), size.height - 1 - p.y()});
+    if (!away.empty()) {
+      edge = std::min<double>(edge, away.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))));
     }
-    if ((f.graph.nodes[nearest] - *options.root).norm() < 0.05 * std::max(size.width, size.height)) return nearest;
+    on_frame[n] = edge < options.frame_margin + (e.from == static_cast<int>(n) ? e.radii.front() : e.radii.back());
   }
-  // True ends only; where a loop was cut the tree ends as well, but nothing starts there. A component of loops alone may
-  // start anywhere.
-  int best = kNone;
-  double best_score = -1e300;
-  for (const bool ends_only : {true, false}) {
-    for (const int n : nodes) {
-      if (best != kNone && !ends_only) break;
-      if (ends_only && f.incident[n].size() != 1) continue;
-      const double score = root_score(f, n, size, options.frame_margin);
-      if (score > best_score) {
-        best_score = score;
-        best = n;
-      }
-    }
+  return on_frame;
+}
+
+// The entries of one component: all strokes at its root node.
+std::vector<StrokePlace> best_plan(const StrokeNet& net, std::vector<std::pair<double, int>> candidates,
+                                   const std::vector<bool>& on_frame) {
+  std::sort(candidates.begin(), candidates.end());
+  if (candidates.size() > kMostRoots) candidates.resize(kMostRoots);
+  std::vector<StrokePlace> best;
+  double best_score = 0.0;
+  for (const auto& [radius, node] : candidates) {
+    std::vector<StrokePlace> plan = plan_from(net, net.touching[node]);
+    const double score = plan_score(net, plan, on_frame[node]);
+    if (!best.empty() && score <= best_score) continue;
+    best = std::move(plan);
+    best_score = score;
   }
   return best;
 }
 
-// Builds branches from the tree; remembers which branch point each graph node became.
+std::vector<StrokePlace> plan_component(const StrokeNet& net, const std::vector<int>& nodes, const std::vector<int>& roots,
+                                        const std::vector<bool>& on_frame) {
+  std::vector<std::pair<int, int>> entries;
+  for (const int root : roots) {
+    if (std::binary_search(nodes.begin(), nodes.end(), root)) {
+      entries.insert(entries.end(), net.touching[root].begin(), net.touching[root].end());
+    }
+  }
+  if (!entries.empty()) return plan_from(net, entries);
+  std::vector<std::pair<double, int>> candidates;
+  for (const bool ends_only : {true, false}) {
+    for (const int n : nodes) {
+      if ((ends_only && net.touching[n].size() != 1) || net.touching[n].empty()) continue;
+      const auto& [s, i] = net.touching[n].front();
+      const TraceStroke& stroke = net.strokes[s];
+      if (ends_only && i > 0 && i + 1 < static_cast<int>(stroke.nodes.size())) continue;
+      candidates.emplace_back(-stroke.radii[stroke.at[i]], n);
+    }
+    if (!candidates.empty()) break;
+  }
+  return best_plan(net, std::move(candidates), on_frame);
+}
+
+// Turns placed strokes into annotated branches; remembers which branch point each stroke node became.
 class BranchBuilder {
  public:
-  BranchBuilder(const Forest& forest, Size size, double margin)
-      : f_(forest), size_(size), margin_(margin), place_(forest.graph.nodes.size()) {
+  BranchBuilder(const StrokeNet& net, const std::vector<bool>& on_frame, Size size) : net_(net), on_frame_(on_frame) {
     annotation_.photo_size = size;
-    subtree_.assign(forest.graph.edges.size(), 0.0);
   }
 
-  void grow(int root) {
-    measure_subtrees(root);
-    std::vector<std::pair<int, int>> starts;  // node, edge
-    const int first = best_child(root, kNone);
-    if (first == kNone) return;
-    walk(root, first, std::nullopt, starts);
-    queue_children(root, kNone, first, starts);
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-      const auto [node, edge] = starts[i];
-      walk(node, edge, place_[node], starts);
+  void add(const std::vector<StrokePlace>& plan) {
+    point_of_.assign(plan.size(), {});
+    for (std::size_t p = 0; p < plan.size(); ++p) {
+      const TraceStroke& s = net_.strokes[plan[p].stroke];
+      const int last = static_cast<int>(s.nodes.size()) - 1, start = plan[p].start;
+      point_of_[p].assign(s.nodes.size(), std::nullopt);
+      std::optional<BranchPoint> parent;
+      if (plan[p].parent != kNone) parent = point_of_[plan[p].parent][plan[p].parent_node];
+      // The way that goes straighter on comes first: it may carry on the parent where that ends.
+      bool forward = start < last;
+      if (start > 0 && start < last && parent) {
+        const Vec2 way = way_into(*parent);
+        forward = way.dot(heading(s, s.at[start], 1)) >= way.dot(heading(s, s.at[start], -1));
+      }
+      for (const int sign : {forward ? 1 : -1, forward ? -1 : 1}) {
+        if (sign > 0 ? start < last : start > 0) walk(static_cast<int>(p), s, start, sign, parent);
+      }
     }
   }
 
-  // An edge that closes a loop: a branch of the thicker end whose tip is linked to the other end.
-  void add_loop(int edge) {
-    const TraceEdge& e = f_.graph.edges[edge];
-    if (!place_[e.from] || !place_[e.to]) return;
-    const double at_from = radius_of(*place_[e.from]), at_to = radius_of(*place_[e.to]);
-    const int start = at_from >= at_to ? e.from : e.to;
-    const int end = other_end(e, start);
-    AnnotatedBranch branch;
-    branch.parent = place_[start];
-    append(branch, edge, start);
-    cut_at_rim(branch, radius_of(*place_[start]), true);
-    const BranchPoint tip{static_cast<int>(annotation_.branches.size()), static_cast<int>(branch.points.size()) - 1};
-    finish(branch);
-    annotation_.links.emplace_back(tip, *place_[end]);
+  Annotation take() {
+    link_tips();
+    return std::move(annotation_);
   }
-
-  Annotation take() { return std::move(annotation_); }
 
  private:
-  double radius_of(const BranchPoint& p) const {
-    return annotation_.branches[p.branch].radii[p.point];
+  struct Tip {
+    int node = kNone;
+    double confidence_length = 0.0;
+  };
+
+  Vec2 way_into(const BranchPoint& p) const {
+    const auto& points = annotation_.branches[p.branch].points;
+    return tangent_at(points, p.point, 8);
   }
 
-  void measure_subtrees(int root) {
-    std::vector<std::pair<int, int>> order{{root, kNone}};
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const auto [node, by] = order[i];
-      for (const int e : f_.incident[node]) {
-        if (f_.in_tree[e] && e != by) order.emplace_back(other_end(f_.graph.edges[e], node), e);
-      }
-    }
-    for (std::size_t i = order.size(); i-- > 1;) {
-      const auto [node, by] = order[i];
-      double length = line_length(f_.graph.edges[by].line);
-      for (const int e : f_.incident[node]) {
-        if (f_.in_tree[e] && e != by) length += subtree_[e];
-      }
-      subtree_[by] = length;
-    }
-  }
+  double radius_at(const BranchPoint& p) const { return annotation_.branches[p.branch].radii[p.point]; }
 
-  // The continuation at a node reached by edge `by`: straight on, thick, and with much behind it (ALGORITHMS 3.3-9).
-  int best_child(int node, int by) const {
-    double total = 0.0;
-    for (const int e : f_.incident[node]) {
-      if (f_.in_tree[e] && e != by) total += subtree_[e];
+  // One stroke from node `start` to one of its ends: a new branch, or more of the parent that ends there.
+  void walk(int place, const TraceStroke& s, int start, int sign, const std::optional<BranchPoint>& parent) {
+    std::vector<Vec2> line;
+    std::vector<double> radii;
+    std::vector<std::pair<int, int>> passed;  // index into the stroke's nodes, point
+    const int end = sign > 0 ? static_cast<int>(s.nodes.size()) - 1 : 0;
+    for (int i = s.at[start]; i != s.at[end] + sign; i += sign) {
+      line.push_back(s.line[i]);
+      radii.push_back(s.radii[i]);
     }
-    int best = kNone;
-    double best_score = -1e300;
-    for (const int e : f_.incident[node]) {
-      if (!f_.in_tree[e] || e == by) continue;
-      const TraceEdge& child = f_.graph.edges[e];
-      double score = 0.5 * end_radius(child, child.from == node) + 0.25 * subtree_[e] / std::max(total, 1e-9);
-      if (by != kNone) {
-        const TraceEdge& parent = f_.graph.edges[by];
-        score = -leaving(parent, parent.from == node).dot(leaving(child, child.from == node)) +
-                0.5 * std::min(1.5, end_radius(child, child.from == node) / end_radius(parent, parent.from == node)) +
-                0.25 * subtree_[e] / std::max(total, 1e-9);
-      }
-      if (score > best_score) {
-        best_score = score;
-        best = e;
-      }
-    }
-    return best;
-  }
-
-  void queue_children(int node, int by, int continuation, std::vector<std::pair<int, int>>& starts) const {
-    for (const int e : f_.incident[node]) {
-      if (f_.in_tree[e] && e != by && e != continuation) starts.emplace_back(node, e);
-    }
-  }
-
-  void append(AnnotatedBranch& branch, int edge, int from) const {
-    const TraceEdge& e = f_.graph.edges[edge];
-    const int n = static_cast<int>(e.line.size());
-    for (int k = branch.points.empty() && !branch.parent ? 0 : 1; k < n; ++k) {
-      const int i = e.from == from ? k : n - 1 - k;
-      branch.points.push_back(e.line[i]);
-      branch.radii.push_back(e.radii[i]);
-    }
-    const double length = line_length(e.line), before = length_;
-    confidence_ = (confidence_ * before + e.confidence * length) / std::max(before + length, 1e-9);
-    length_ += length;
-  }
-
-  // Follows continuations from `node` along `edge` to a tip.
-  void walk(int node, int edge, std::optional<BranchPoint> parent, std::vector<std::pair<int, int>>& starts) {
+    for (int k = start; k != end + sign; k += sign) passed.emplace_back(k, std::abs(s.at[k] - s.at[start]));
+    const int tip_node = s.nodes[end];
+    if (parent && extends(*parent, line)) return extend(place, s, *parent, line, radii, passed, tip_node);
     AnnotatedBranch branch;
     branch.parent = parent;
-    const int index = static_cast<int>(annotation_.branches.size());
-    std::vector<std::pair<int, int>> passed;  // node, point of this branch
-    if (!parent) passed.emplace_back(node, 0);
-    while (edge != kNone) {
-      append(branch, edge, node);
-      node = other_end(f_.graph.edges[edge], node);
-      passed.emplace_back(node, static_cast<int>(branch.points.size()) - 1);
-      const int next = best_child(node, edge);
-      queue_children(node, edge, next, starts);
-      edge = next;
+    int cut = 0;
+    if (parent) {
+      cut = inside_parent(line, *parent, 0.9);
+      const int covered = inside_parent(line, *parent, 1.25);
+      const int n = static_cast<int>(line.size());
+      if (covered + 4 >= n) {  // never leaves the parent: its nodes are the parent's
+        for (const auto& [k, point] : passed) point_of_[place][k] = nearest_on(parent->branch, s.line[s.at[k]]);
+        return;
+      }
+      clear_start(radii, line, *parent);
+      line.erase(line.begin(), line.begin() + cut);
+      radii.erase(radii.begin(), radii.begin() + cut);
     }
-    const int cut = parent ? cut_at_rim(branch, radius_of(*parent), passed.size() == 1) : 0;
-    for (const auto& [n, point] : passed) place_[n] = BranchPoint{index, std::max(0, point - cut)};
-    finish(branch);
-  }
-
-  // A child's stretch inside its parent teaches a false taper (PICTURES 3): drop the points inside the parent's rim and
-  // give the next ones the radius the branch has once it is clear. Returns how many points went.
-  int cut_at_rim(AnnotatedBranch& branch, double parent_radius, bool single) const {
-    const Vec2 base = annotation_.branches[branch.parent->branch].points[branch.parent->point];
-    const int n = static_cast<int>(branch.points.size());
-    int cut = 0, clear = 0;
-    while (cut + 2 < n && (branch.points[cut] - base).norm() < 0.9 * parent_radius) ++cut;
-    while (clear + 1 < n && (branch.points[clear] - base).norm() < 1.5 * parent_radius + 2.0) ++clear;
-    if (!single) cut = std::min(cut, n / 4);
-    for (int i = 0; i < clear; ++i) branch.radii[i] = std::min(branch.radii[clear], parent_radius);
-    branch.points.erase(branch.points.begin(), branch.points.begin() + cut);
-    branch.radii.erase(branch.radii.begin(), branch.radii.begin() + cut);
-    return cut;
-  }
-
-  void finish(AnnotatedBranch& branch) {
-    branch.confidence = confidence_;
-    const Vec2& tip = branch.points.back();
-    const double edge = std::min({tip.x(), tip.y(), size_.width - 1 - tip.x(), size_.height - 1 - tip.y()});
-    if (edge < margin_ + branch.radii.back()) branch.leaves_frame = true;
+    const int index = static_cast<int>(annotation_.branches.size());
+    for (const auto& [k, point] : passed) {
+      if (point < cut) point_of_[place][k] = nearest_on(parent->branch, s.line[s.at[k]]);
+      else point_of_[place][k] = BranchPoint{index, point - cut};
+      if (point >= cut) at_node_.emplace_back(s.nodes[k], BranchPoint{index, point - cut});
+    }
+    branch.points = std::move(line);
+    branch.radii = std::move(radii);
+    branch.confidence = s.confidence;
+    if (on_frame_[tip_node]) branch.leaves_frame = true;
     annotation_.branches.push_back(std::move(branch));
-    confidence_ = length_ = 0.0;
+    tips_.push_back({tip_node, line_length(annotation_.branches.back().points)});
   }
 
-  const Forest& f_;
-  Size size_;
-  double margin_;
-  std::vector<std::optional<BranchPoint>> place_;
-  std::vector<double> subtree_;
+  // Does the parent end where the child starts, and go straight on in it?
+  bool extends(const BranchPoint& p, const std::vector<Vec2>& line) const {
+    const AnnotatedBranch& b = annotation_.branches[p.branch];
+    if (p.point + 1 != static_cast<int>(b.points.size()) || line.size() < 2) return false;
+    const Vec2 on = tangent_at(line, 0, std::min<int>(12, static_cast<int>(line.size()) - 1));
+    return tangent_at(b.points, p.point, 12).dot(on) > 0.0;
+  }
+
+  void extend(int place, const TraceStroke& s, const BranchPoint& parent, const std::vector<Vec2>& line,
+              const std::vector<double>& radii, const std::vector<std::pair<int, int>>& passed, int tip_node) {
+    AnnotatedBranch& b = annotation_.branches[parent.branch];
+    const int offset = static_cast<int>(b.points.size()) - 1;
+    const double more = line_length(line), before = tips_[parent.branch].confidence_length;
+    b.confidence = (*b.confidence * before + s.confidence * more) / std::max(before + more, 1e-9);
+    b.points.insert(b.points.end(), line.begin() + 1, line.end());
+    b.radii.insert(b.radii.end(), radii.begin() + 1, radii.end());
+    b.leaves_frame.reset();
+    if (on_frame_[tip_node]) b.leaves_frame = true;
+    tips_[parent.branch] = {tip_node, before + more};
+    for (const auto& [k, point] : passed) {
+      point_of_[place][k] = BranchPoint{parent.branch, offset + point};
+      if (point > 0) at_node_.emplace_back(s.nodes[k], *point_of_[place][k]);
+    }
+  }
+
+  // How many points from the start lie within `share` of the parent's radius of its middle line.
+  int inside_parent(const std::vector<Vec2>& line, const BranchPoint& at, double share) const {
+    const AnnotatedBranch& b = annotation_.branches[at.branch];
+    int inside = 0;
+    for (; inside + 2 < static_cast<int>(line.size()); ++inside) {
+      const BranchPoint near = nearest_on(at.branch, line[inside]);
+      if ((b.points[near.point] - line[inside]).norm() >= share * b.radii[near.point] + (share > 1.0 ? 1.0 : 0.0)) break;
+    }
+    return inside;
+  }
+
+  BranchPoint nearest_on(int branch, const Vec2& p) const {
+    const auto& points = annotation_.branches[branch].points;
+    int best = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if ((points[i] - p).squaredNorm() < (points[best] - p).squaredNorm()) best = static_cast<int>(i);
+    }
+    return {branch, best};
+  }
+
+  // A child's stretch beside its parent sees the parent's width and would teach a false taper (PICTURES 3): it gets the
+  // radius the child has once it is clear.
+  void clear_start(std::vector<double>& radii, const std::vector<Vec2>& line, const BranchPoint& parent) const {
+    const int n = static_cast<int>(line.size());
+    int clear = std::min(n - 1, inside_parent(line, parent, 1.5) + 2);
+    clear = std::min(clear, (2 * n) / 3);
+    for (int i = 0; i < clear; ++i) radii[i] = std::min(radii[clear], radius_at(parent));
+  }
+
+  // Tips on another branch close a loop or make a T.
+  void link_tips() {
+    std::set<std::pair<int, int>> linked;
+    for (std::size_t b = 0; b < tips_.size(); ++b) {
+      const BranchPoint tip{static_cast<int>(b), static_cast<int>(annotation_.branches[b].points.size()) - 1};
+      for (const auto& [node, place] : at_node_) {
+        if (node != tips_[b].node || place.branch == tip.branch || linked.count({place.branch, tip.branch})) continue;
+        const auto& parent = annotation_.branches[place.branch].parent;
+        if (parent && parent->branch == tip.branch && place.point < 3) continue;  // a child that starts at the tip
+        annotation_.links.emplace_back(tip, place);
+        linked.emplace(tip.branch, place.branch);
+        break;
+      }
+    }
+  }
+
+  const StrokeNet& net_;
+  const std::vector<bool>& on_frame_;
+  std::vector<std::vector<std::optional<BranchPoint>>> point_of_;  // of the component's places, per stroke node
+  std::vector<std::pair<int, BranchPoint>> at_node_;
+  std::vector<Tip> tips_;  // one per branch
   Annotation annotation_;
-  mutable double confidence_ = 0.0, length_ = 0.0;
 };
 
 }  // namespace
 
 Annotation annotation_from_graph(const TraceGraph& graph, Size size, const TreeOptions& options) {
-  const Forest forest = spanning_forest(graph);
+  const std::vector<int> roots = given_roots(graph, size, options);
+  const std::vector<bool> on_frame = frame_nodes(graph, size, options);
+  const StrokeNet net = stroke_net(graph, strokes_of(graph, roots), on_frame);
+  const std::vector<int> component = components_of(graph);
   std::vector<std::vector<int>> members(graph.nodes.size());
-  for (std::size_t n = 0; n < graph.nodes.size(); ++n) members[forest.component[n]].push_back(static_cast<int>(n));
-  std::vector<std::pair<double, int>> order;  // the component with most line first
+  for (std::size_t n = 0; n < graph.nodes.size(); ++n) members[component[n]].push_back(static_cast<int>(n));
   std::vector<double> total(graph.nodes.size(), 0.0);
-  for (const TraceEdge& e : graph.edges) total[forest.component[e.from]] += line_length(e.line);
+  for (const TraceEdge& e : graph.edges) total[component[e.from]] += line_length(e.line);
+  std::vector<std::pair<double, int>> order;  // the component with most line first
   for (std::size_t c = 0; c < members.size(); ++c) {
-    if (!members[c].empty()) order.emplace_back(-total[c], static_cast<int>(c));
+    if (!members[c].empty() && total[c] > 0.0) order.emplace_back(-total[c], static_cast<int>(c));
   }
   std::sort(order.begin(), order.end());
-  BranchBuilder builder(forest, size, options.frame_margin);
-  for (const auto& [length, c] : order) builder.grow(choose_root(forest, members[c], size, options));
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    if (!forest.in_tree[e]) builder.add_loop(static_cast<int>(e));
-  }
+  BranchBuilder builder(net, on_frame, size);
+  for (const auto& [length, c] : order) builder.add(plan_component(net, members[c], roots, on_frame));
   return builder.take();
 }
 

@@ -2,7 +2,7 @@
 // From the traced graph to branches with parents: root, order, loops as links (ALGORITHMS 3.3-8, 3.3-9).
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "ramify/exemplar/annotation.h"
 #include "ramify/exemplar/trace_graph.h"
@@ -10,13 +10,14 @@
 namespace ramify {
 
 struct TreeOptions {
-  std::optional<Vec2> root;    // px: the root of its component is the node nearest to it
-  double frame_margin = 4.0;   // px, nodes nearer than this + their radius to the frame lie on it
+  std::vector<Vec2> roots;     // px: the node nearest to each is a root; a component without one chooses its own
+  double frame_margin = 4.0;   // px, nodes nearer than this + their radius to the frame or to `outside` lie on it
+  Mask outside;                // where the photo shows nothing; may be empty
 };
 
-// One tree per component. A component's root is the end from which its forks open forwards and get thinner; loops are
-// cut at the weakest edge, which stays as a branch whose tip is linked to where it ended. Children start at their
-// parent's rim. Radii must be measured. `size` is the canvas.
+// Strokes (trace_strokes.h) hung from their roots (trace_plan.h). A component's own root is the end from which its forks
+// open forwards and get thinner. What ends on another branch is linked to it. Children start at their parent's rim;
+// strokes that never leave their parent are dropped. Radii must be measured. `size` is the canvas.
 Annotation annotation_from_graph(const TraceGraph& graph, Size size, const TreeOptions& options);
 
 }  // namespace ramify
