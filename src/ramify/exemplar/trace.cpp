@@ -32,17 +32,6 @@ Mask excluded_pixels(const Photo& photo, const std::vector<Region>& regions) {
   return excluded;
 }
 
-// Pixels of one role, or an empty mask where there are none.
-Mask role_pixels(const Photo& photo, const std::vector<Region>& regions, RegionRole role) {
-  if (std::none_of(regions.begin(), regions.end(), [&](const Region& r) { return r.role == role; })) return {};
-  const Image<std::uint8_t> map = region_map(regions, photo.color.size(), photo.alpha);
-  Mask mask(photo.color.size());
-  for (std::size_t i = 0; i < map.pixels().size(); ++i) {
-    mask.pixels()[i] = map.pixels()[i] == static_cast<std::uint8_t>(role) ? 255 : 0;
-  }
-  return mask;
-}
-
 void draw_path(Mask& lines, const std::vector<Pixel>& path) {
   for (const Pixel& p : path) lines(p.x, p.y) = 255;
 }
@@ -281,7 +270,6 @@ Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Mo
   graph_monitor.report(0.8);
   TreeOptions tree;
   tree.roots = root;
-  tree.outside = role_pixels(photo, regions, RegionRole::Outside);
   if (root.empty() && strokes && !options.automatic) tree.roots = {parse_strokes("through", options.through).front().front()};
   Annotation annotation = annotation_from_graph(graph, photo.color.size(), tree);
   calm_radii(annotation);

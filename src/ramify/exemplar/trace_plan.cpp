@@ -10,7 +10,7 @@ namespace ramify {
 namespace {
 
 constexpr double kFrameRoot = 3.0;    // entering from the frame costs as much as three levels
-constexpr double kSplit = 2.0;        // entering a stroke in its middle, when the parent goes on
+constexpr double kSplit = 1.0;        // entering a stroke in its middle, when the parent goes on
 constexpr double kSplitAtTip = 0.5;   // the same where the parent ends
 constexpr double kThickening = 2.0;   // per log ratio
 constexpr double kMostPenalty = 3.0;

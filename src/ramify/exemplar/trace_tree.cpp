@@ -9,7 +9,6 @@
 
 #include "ramify/exemplar/trace_plan.h"
 #include "ramify/exemplar/traced_line.h"
-#include "ramify/image/filter.h"
 
 namespace ramify {
 namespace {
@@ -45,19 +44,15 @@ std::vector<int> given_roots(const TraceGraph& graph, Size size, const TreeOptio
   return roots;
 }
 
-// Ends that the frame, or the rim of what the photo shows, has cut.
+// Ends that the frame has cut. The rim of an outside region is no frame: a leaf's veins do end at its margin.
 std::vector<bool> frame_nodes(const TraceGraph& graph, Size size, const TreeOptions& options) {
   const auto incident = graph.edges_of_nodes();
-  const ScalarImage away = options.outside.empty() ? ScalarImage() : distance_to(options.outside);
   std::vector<bool> on_frame(graph.nodes.size(), false);
   for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
     if (incident[n].size() != 1) continue;
     const TraceEdge& e = graph.edges[incident[n].front()];
     const Vec2 p = graph.nodes[n];
-    double edge = std::min({p.x(), p.y(), size.width - 1 - p.x(), size.height - 1 - p.y()});
-    if (!away.empty()) {
-      edge = std::min<double>(edge, away.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))));
-    }
+    const double edge = std::min({p.x(), p.y(), size.width - 1 - p.x(), size.height - 1 - p.y()});
     on_frame[n] = edge < options.frame_margin + (e.from == static_cast<int>(n) ? e.radii.front() : e.radii.back());
   }
   return on_frame;

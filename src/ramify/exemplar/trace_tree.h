@@ -11,8 +11,7 @@ namespace ramify {
 
 struct TreeOptions {
   std::vector<Vec2> roots;     // px: the node nearest to each is a root; a component without one chooses its own
-  double frame_margin = 4.0;   // px, nodes nearer than this + their radius to the frame or to `outside` lie on it
-  Mask outside;                // where the photo shows nothing; may be empty
+  double frame_margin = 4.0;   // px, nodes nearer than this + their radius to the frame lie on it
 };
 
 // Strokes (trace_strokes.h) hung from their roots (trace_plan.h). A component's own root is the end from which its forks
