@@ -86,7 +86,7 @@ void add_rectify(CLI::App& root, Chosen& chosen) {
       const Photo photo = load_photo(a->photo, chosen.shared.load_limits(), monitor.stage("load", 0.0, 0.1));
       const Rectification flat = rectification_from_corners({points[0], points[1], points[2], points[3]}, chosen.shared.limit_pixels);
       SaveOptions save;
-      save.bits = photo.bits;
+      save.bits = fitting_bits(a->output, photo.bits);
       const Monitor warp = monitor.stage("warp", 0.1, 0.9);
       if (a->back.empty()) {
         const Warped out = warp_picture(photo.color, photo.alpha, flat.rectified_from_photo, flat.size, warp);
@@ -134,7 +134,7 @@ void add_complete(CLI::App& root, Chosen& chosen) {
       const Mask forbidden = photo.alpha.empty() ? Mask() : invert(photo.alpha);
       const Completion done = complete(photo.color, hole, forbidden, a->options, Rng(chosen.shared.seed).child("complete"), monitor.stage("complete", 0.05, 0.98));
       SaveOptions save;
-      save.bits = photo.bits;
+      save.bits = fitting_bits(a->output, photo.bits);
       if (photo.alpha.empty()) save_image(a->output, done.color, save);
       else save_image(a->output, done.color, photo.alpha, save);
       return Outcome{{a->output}, {}, ""};

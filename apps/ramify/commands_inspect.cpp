@@ -171,7 +171,7 @@ void add_convert(CLI::App& root, Chosen& chosen) {
         const LoadedImage image = load_image(a->input, chosen.shared.load_limits());
         for (const std::string& warning : image.warnings) monitor.note(warning);
         SaveOptions save;
-        save.bits = image.bits;
+        save.bits = fitting_bits(a->output, image.bits);
         if (image.alpha.empty()) save_image(a->output, image.color, save);
         else save_image(a->output, image.color, image.alpha, save);
       } else {

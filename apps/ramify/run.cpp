@@ -1,36 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run.h"
 
+#include <semaphore.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
-#include <condition_variable>
+#include <cmath>
 #include <cstdio>
-#include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <thread>
 
 #include "progress.h"
 #include "ramify/core/atomic_file.h"
+#include "ramify/core/memory.h"
 #include "ramify/core/parallel.h"
 
 namespace ramify::app {
 namespace {
 
+constexpr char kNoMemory[] = "not enough memory; choose a smaller --size, or raise --limit-memory or the system's limit";
 Monitor g_monitor;                     // the running verb's, for the signal handler
 std::atomic<int> g_signal{0};
 std::atomic<bool> g_timed_out{false};
 
+std::atomic<sem_t*> g_wake{nullptr};   // the watchdog's
+
 extern "C" void handle_stop(int signal) {
+  const int error = errno;
   if (g_signal.exchange(signal) != 0) {
     remove_unfinished_files();
     _exit(128 + signal);
   }
   g_monitor.cancel();
+  if (sem_t* wake = g_wake) sem_post(wake);
+  errno = error;
+}
+
+// A verb was stopped by a signal or by --timeout.
+int report_stop(const SharedOptions& shared) {
+  const std::string kept = "; no file was left unfinished";
+  if (g_timed_out) return report_error(shared, ExitCode::Limit, "stopped after --timeout " + number_text(shared.timeout) + " s" + kept);
+  return report_error(shared, g_signal == SIGINT ? ExitCode::Interrupted : ExitCode::Terminated, "stopped" + kept);
 }
 
 void install_handlers() {
@@ -44,33 +60,57 @@ void install_handlers() {
   sigaction(SIGXFSZ, &ignore, nullptr);  // a file size limit then fails like a full disk, with a message
 }
 
-// Cancels the monitor when the time is up; ends with the verb.
+// Ends a verb that does not end by itself: cancels the monitor when the time is up; and if the verb has not stopped a
+// moment after any cancel (some libraries' calls cannot be interrupted), ends the program. Files appear under their names
+// whole or not at all, so ending anywhere leaves nothing half written.
 class Watchdog {
  public:
-  Watchdog(double seconds, const Monitor& monitor) {
-    if (!(seconds > 0.0)) return;
-    thread_ = std::thread([this, seconds, monitor] {
-      std::unique_lock lock(mutex_);
-      const bool ended = done_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return over_; });
-      if (ended) return;
-      g_timed_out = true;
-      monitor.cancel();
-    });
+  Watchdog(const SharedOptions& shared, const Monitor& monitor) {
+    sem_init(&wake_, 0, 0);
+    g_wake = &wake_;
+    try {
+      thread_ = std::thread([this, shared, monitor] { watch(shared, monitor); });
+    } catch (const std::system_error&) {
+      if (shared.timeout > 0.0) monitor.note("the system gives no thread to watch the time: --timeout has no effect");
+    }
   }
   ~Watchdog() {
-    if (!thread_.joinable()) return;
-    {
-      const std::lock_guard lock(mutex_);
-      over_ = true;
-    }
-    done_.notify_all();
-    thread_.join();
+    over_ = true;
+    sem_post(&wake_);
+    if (thread_.joinable()) thread_.join();
+    g_wake = nullptr;  // the semaphore lives on its last moments in a handler at most: it holds nothing to free
   }
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
 
  private:
-  std::mutex mutex_;
-  std::condition_variable done_;
-  bool over_ = false;
+  // False when the time was up before anybody woke us.
+  bool woken_within(double seconds) {
+    timespec until{};
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    const double whole = std::floor(std::min(seconds, 1e9));
+    const long nanoseconds = until.tv_nsec + static_cast<long>(1e9 * (std::min(seconds, 1e9) - whole));
+    until.tv_sec += static_cast<time_t>(whole) + nanoseconds / 1000000000;
+    until.tv_nsec = nanoseconds % 1000000000;
+    int result;
+    do result = sem_clockwait(&wake_, CLOCK_MONOTONIC, &until);
+    while (result != 0 && errno == EINTR);
+    return result == 0;
+  }
+
+  void watch(const SharedOptions& shared, const Monitor& monitor) {
+    constexpr double kGrace = 0.12;  // s; a stop then takes less than 0.2 s in any stage
+    if (!woken_within(shared.timeout > 0.0 ? shared.timeout : 1e9)) {
+      g_timed_out = true;
+      monitor.cancel();
+    }
+    if (over_ || woken_within(kGrace)) return;
+    remove_unfinished_files();
+    _exit(report_stop(shared));
+  }
+
+  sem_t wake_{};
+  std::atomic<bool> over_{false};
   std::thread thread_;
 };
 
@@ -126,25 +166,26 @@ int run_verb(const SharedOptions& shared, const std::function<Outcome(const Moni
   install_handlers();
   set_thread_count(shared.threads);
   limit_memory(shared.limit_memory);
+  share_heap_if_limited();
   try {
-    const Watchdog watchdog(shared.timeout, g_monitor);
-    const Outcome outcome = work(g_monitor);
+    const Outcome outcome = [&] {
+      const Watchdog watchdog(shared, g_monitor);
+      return work(g_monitor);
+    }();
     end_progress();
     if (!shared.timings.empty()) write_timings(shared.timings, g_monitor);
     print_outcome(shared, outcome, g_monitor,
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     return 0;
   } catch (const Cancelled&) {
-    if (g_timed_out) {
-      return report_error(shared, ExitCode::Limit, "stopped after --timeout " + number_text(shared.timeout) + " s; nothing was written");
-    }
-    const int signal = g_signal;
-    return report_error(shared, static_cast<ExitCode>(128 + (signal == SIGHUP ? SIGTERM : signal)), "stopped; nothing was written");
+    return report_stop(shared);
   } catch (const Error& error) {
     return report_error(shared, error.code(), error.what());
   } catch (const std::bad_alloc&) {
-    return report_error(shared, ExitCode::Limit, "not enough memory; choose a smaller --size, or raise --limit-memory");
+    return report_error(shared, ExitCode::Limit, kNoMemory);
   } catch (const std::exception& error) {
+    // OpenCV has an exception of its own for this.
+    if (std::string(error.what()).find("Insufficient memory") != std::string::npos) return report_error(shared, ExitCode::Limit, kNoMemory);
     return report_error(shared, ExitCode::Bug, std::string("internal error: ") + error.what() + "; please report it with the command");
   }
 }

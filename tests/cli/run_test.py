@@ -3,6 +3,7 @@
 import glob
 import json
 import os
+import pathlib
 import pty
 import resource
 import signal
@@ -50,7 +51,7 @@ class SameBytes(CliTest):
         progress = [json.loads(line)["progress"] for line in done.stderr.splitlines()]
         self.assertEqual(progress, sorted(progress))
         self.assertGreater(len(progress), 3)
-        stages = {row["stage"] for row in json.load(open(self.path("t.json")))}
+        stages = {row["stage"] for row in json.loads(pathlib.Path(self.path("t.json")).read_text())}
         self.assertTrue({"load", "synth", "synth/grow", "synth/compose"} <= stages, stages)
 
 
@@ -96,8 +97,8 @@ class Signals(CliTest):
         except OSError:
             pass
         self.assertEqual(job.wait(timeout=60), 0)
-        self.assertIn(b"%", shown)
-        self.assertNotIn("%", self.ok("synth", self.exemplar, "-o", self.path("b.png")).stderr)
+        self.assertRegex(shown, rb"\r.*\[#+-*\] +\d+ %.* left")
+        self.assertNotIn("[#", self.ok("synth", self.exemplar, "-o", self.path("b.png")).stderr)
 
 
 class Limits(CliTest):
@@ -125,7 +126,7 @@ class Limits(CliTest):
         out = self.path("a.png", b"old")
         done = self.run_cli("synth", self.exemplar, "-o", out, preexec_fn=limit)
         self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertEqual(open(out, "rb").read(), b"old")
+        self.assertEqual(pathlib.Path(out).read_bytes(), b"old")
         self.assertEqual(os.listdir(self.dir), ["a.png"])
 
     @unittest.skipUnless(os.geteuid() == 0, "mounting a small file system needs root")

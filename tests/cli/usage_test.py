@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Words on the command line: verbs, options, names of files (RELIABILITY rows 18, 19, 33, 34, 46)."""
 import os
+import pathlib
 import socket
 import unittest
 
@@ -56,7 +57,7 @@ class Usage(CliTest):
         out = self.path("a.png", b"mine")
         done = self.ok("synth", self.exemplar, "-o", out, "--no-clobber")
         self.assertIn("kept", done.stderr)
-        self.assertEqual(open(out, "rb").read(), b"mine")
+        self.assertEqual(pathlib.Path(out).read_bytes(), b"mine")
 
     def test_inputs_that_are_no_files(self):
         os.mkfifo(self.path("pipe"))

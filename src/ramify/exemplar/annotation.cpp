@@ -19,14 +19,14 @@ std::vector<int> parents_first(const Annotation& annotation) {
     const auto& parent = annotation.branches[i].parent;
     if (!parent) order.push_back(i);
     else if (parent->branch < 0 || parent->branch >= count)
-      throw InputError(annotation.photo_file, "branches[" + std::to_string(i) + "].parent: there is no such branch");
+      throw InputError("", "branches[" + std::to_string(i) + "].parent: there is no such branch");
     else children[parent->branch].push_back(i);
   }
   for (std::size_t k = 0; k < order.size(); ++k) {
     order.insert(order.end(), children[order[k]].begin(), children[order[k]].end());
   }
   if (static_cast<int>(order.size()) < count) {
-    throw InputError(annotation.photo_file, "branches: some are each other's parents, so they have no root");
+    throw InputError("", "branches: some are each other's parents, so they have no root");
   }
   return order;
 }

@@ -208,7 +208,11 @@ Annotation parse_annotation(const std::string& json, const std::string& name) {
     if (!known.count(key)) unknown[key] = value;
   }
   if (!unknown.empty()) annotation.unknown_fields = unknown.dump();
-  skeleton_from_annotation(annotation);  // throws when parents or links point nowhere
+  try {
+    skeleton_from_annotation(annotation);
+  } catch (const InputError& error) {  // parents or links point nowhere
+    throw InputError(name, error.what());
+  }
   return annotation;
 }
 
@@ -239,7 +243,7 @@ std::string annotation_text(const Annotation& annotation) {
   return text + "\n}\n";
 }
 
-Annotation load_annotation(const std::string& path) { return parse_annotation(read_file(path, kFileLimit), path); }
+Annotation load_annotation(const std::string& path) { return parse_annotation(read_file(path, kFileLimit), printable(path, 300)); }
 
 void save_annotation(const Annotation& annotation, const std::string& path) {
   write_file(path, annotation_text(annotation));

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "ramify/core/memory.h"
 #include "ramify/core/parallel.h"
 
 namespace ramify {
@@ -23,6 +24,7 @@ std::mutex planner;
 struct Plan {
   Plan(Size size, float* buffer, fftwf_r2r_kind kind) {
     const std::lock_guard lock(planner);
+    require_memory((std::size_t{8} << 20) + sizeof(float) * size.width * size.height);
     plan = fftwf_plan_r2r_2d(size.height, size.width, buffer, buffer, kind, kind, FFTW_ESTIMATE);
   }
   ~Plan() {
@@ -73,7 +75,10 @@ ColorImage solve_screened_poisson(const ColorImage& target, const ColorGradients
   const Size size = target.size();
   const std::size_t area = static_cast<std::size_t>(size.width) * size.height;
   std::vector<Buffer> buffers;
-  for (int c = 0; c < 3; ++c) buffers.emplace_back(fftwf_alloc_real(area));
+  for (int c = 0; c < 3; ++c) {
+    buffers.emplace_back(fftwf_alloc_real(area));
+    if (!buffers.back()) throw std::bad_alloc();
+  }
   const Plan forward(size, buffers[0].get(), FFTW_REDFT10), backward(size, buffers[0].get(), FFTW_REDFT01);
   const std::vector<float> sx = second_difference_spectrum(size.width), sy = second_difference_spectrum(size.height);
   ColorImage result = target;

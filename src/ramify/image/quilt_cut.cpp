@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace ramify {
 namespace {
 
 using Graph = maxflow::Graph<float, float, float>;
+
+// maxflow calls this when memory is short, and would end the program if it came back.
+[[noreturn]] void no_memory(const char*) { throw std::bad_alloc(); }
 
 constexpr float kUnfilledCost = 1e4f;  // leaving a pixel empty
 constexpr float kImpossible = 1e6f;    // showing what the photo does not hold
@@ -116,7 +120,7 @@ void expand_patch(const QuiltJob& job, Quilt& quilt, int index) {
     }
   }
   if (count == 0) return;
-  Graph graph(count, 2 * count + 8);
+  Graph graph(count, 2 * count + 8, no_memory);
   graph.add_node(count);
   for (int y = box.y0; y < box.y1; ++y) {
     for (int x = box.x0; x < box.x1; ++x) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 #include <vector>
 
 #include "ramify/core/parallel.h"
@@ -15,6 +16,9 @@ namespace {
 
 // Capacities are whole numbers held in doubles: exact up to 2^53, where the sums of an int flow could overflow.
 using Graph = maxflow::Graph<double, double, double>;
+
+// maxflow calls this when memory is short, and would end the program if it came back.
+[[noreturn]] void no_memory(const char*) { throw std::bad_alloc(); }
 
 struct Direction {
   int dx, dy;
@@ -45,7 +49,8 @@ class Expansion {
     if (move_.left >= move_.right || move_.top >= move_.bottom) return;
     collect();
     if (free_.empty()) return;
-    Graph graph(static_cast<int>(free_.size()), static_cast<int>(free_.size()) * (options_.eight_neighbours ? 4 : 2));
+    Graph graph(static_cast<int>(free_.size()), static_cast<int>(free_.size()) * (options_.eight_neighbours ? 4 : 2),
+                no_memory);
     graph.add_node(static_cast<int>(free_.size()));
     add_pairs(graph);
     for (std::size_t i = 0; i < free_.size(); ++i) {

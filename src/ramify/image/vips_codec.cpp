@@ -4,10 +4,16 @@
 #include <stdexcept>
 
 #include "ramify/core/error.h"
+#include "ramify/core/memory.h"
 #include "ramify/image/vips_library.h"
 
 namespace ramify {
 namespace {
+
+// What reading or writing a picture takes at most: glib's threads with their stacks, and the picture three times.
+std::size_t picture_memory(int width, int height, int bytes_per_pixel) {
+  return (std::size_t{48} << 20) + std::size_t{3} * width * height * bytes_per_pixel;
+}
 
 VipsPointer open_image(ImageFormat format, std::string_view file, VipsFailOn fail_on) {
   const VipsLibrary& vips = vips_library();
@@ -85,6 +91,7 @@ VipsPointer wrap_samples(const Samples& samples) {
 Samples decode_samples(ImageFormat format, std::string_view file, Size size, bool allow_truncated,
                        const std::string& name, std::vector<std::string>& warnings) {
   const VipsLibrary& vips = vips_library();
+  require_memory(picture_memory(size.width, size.height, 16));
   VipsPointer image = open_image(format, file, allow_truncated ? VIPS_FAIL_ON_NONE : VIPS_FAIL_ON_TRUNCATED);
   if (!image)
     throw InputError(name, "cannot be read as " + std::string(format_name(format)) + ": " + take_vips_error());
@@ -114,6 +121,7 @@ Samples decode_samples(ImageFormat format, std::string_view file, Size size, boo
 
 std::string encode_samples(ImageFormat format, const Samples& samples, int quality, const std::string& xmp) {
   const VipsLibrary& vips = vips_library();
+  require_memory(picture_memory(samples.size.width, samples.size.height, samples.channels() * 4));
   const VipsPointer view = wrap_samples(samples);
   const bool integers = samples.type != SampleType::F32;
   if (!xmp.empty()) vips.vips_image_set_blob_copy(view.get(), VIPS_META_XMP_NAME, xmp.data(), xmp.size());

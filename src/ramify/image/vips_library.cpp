@@ -14,7 +14,10 @@ void keep_silent(const char*, GLogLevelFlags, const char*, void*) {}
 VipsLibrary load() {
   void* handle = dlopen(RAMIFY_VIPS_SONAME, RTLD_NOW | RTLD_LOCAL);
   const auto fail = [] {
-    throw Error(ExitCode::Bug, "libvips cannot be loaded: " + std::string(dlerror()) + "; install it");
+    const std::string why = dlerror();
+    const bool memory = why.find("failed to map") != std::string::npos || why.find("allocate memory") != std::string::npos;
+    if (memory) throw LimitError("not enough memory to load libvips (" + printable(why) + "); raise the limit of the address space");
+    throw Error(ExitCode::Bug, "libvips cannot be loaded: " + printable(why) + "; install it");
   };
   if (!handle) fail();
   VipsLibrary library;
@@ -28,9 +31,11 @@ VipsLibrary load() {
 
 VipsLibrary start() {
   const VipsLibrary library = load();
-  library.g_log_set_handler("VIPS",
-                            static_cast<GLogLevelFlags>(G_LOG_LEVEL_MASK | G_LOG_FLAG_FATAL | G_LOG_FLAG_RECURSION),
-                            keep_silent, nullptr);
+  for (const char* domain : {"VIPS", "GModule"}) {
+    library.g_log_set_handler(domain,
+                              static_cast<GLogLevelFlags>(G_LOG_LEVEL_MASK | G_LOG_FLAG_FATAL | G_LOG_FLAG_RECURSION),
+                              keep_silent, nullptr);
+  }
   if (library.vips_init("ramify") != 0) {
     throw Error(ExitCode::Bug, "libvips cannot be started: " + printable(library.vips_error_buffer()));
   }
@@ -52,6 +57,9 @@ std::string take_vips_error() {
   vips_library().vips_error_clear();
   while (!text.empty() && text.back() == '\n') text.pop_back();
   for (char& c : text) c = c == '\n' ? ';' : c;
+  for (const char* sign : {"Error creating thread", "out of memory", "Cannot allocate memory"}) {
+    if (text.find(sign) != std::string::npos) throw LimitError("not enough memory for a picture: " + printable(text));
+  }
   return printable(text);
 }
 

@@ -39,7 +39,7 @@ struct ReleaseVips {
 using VipsPointer = std::unique_ptr<VipsImage, ReleaseVips>;
 using GlibMemory = std::unique_ptr<void, ReleaseVips>;
 
-// What libvips said last, on one line, and forgotten.
+// What libvips said last, on one line, and forgotten. Throws LimitError when it was about memory.
 std::string take_vips_error();
 
 }  // namespace ramify

@@ -129,8 +129,11 @@ LoadedExemplar load_exemplar(const ExemplarRequest& request, const Monitor& moni
       out.files.push_back(request.annotation);
     }
   }
-  check_photo(annotation, photo, printable(request.annotation.empty() ? request.argument : request.annotation, 300),
-              request.allow_other_photo, monitor);
+  const std::string named = printable(request.annotation.empty() || request.annotation == "auto" ? request.argument : request.annotation, 300);
+  if (annotation.branches.empty()) {
+    throw InputError(named, "holds no branches; draw at least one, or find them with ramify trace");
+  }
+  check_photo(annotation, photo, named, request.allow_other_photo, monitor);
   out.exemplar = make_exemplar(std::move(photo), std::move(annotation));
   if (!request.regions.empty()) {
     apply_regions(out.exemplar, request.regions, request.limits);

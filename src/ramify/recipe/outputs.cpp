@@ -46,7 +46,7 @@ void save_picture(const LoadedRequest& loaded, const Picture& picture, const Pic
   }
   SaveOptions save;
   const int depth = loaded.request.options.depth;
-  save.bits = depth != 0 ? depth : loaded.source.exemplar.photo.bits;
+  save.bits = depth != 0 ? depth : fitting_bits(files.picture, loaded.source.exemplar.photo.bits);
   save.recipe = recipe_text(picture.recipe);
   if (!files.skeleton.empty()) save_skeleton(picture.skeleton, files.skeleton);
   if (!files.mask.empty()) save_mask(files.mask, draw_branch_mask(picture.skeleton, picture.skeleton.size));

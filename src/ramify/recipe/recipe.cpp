@@ -74,14 +74,16 @@ RecipeInput read_input(const JsonDocument& document, const Json& at) {
   input.role = read_word(document, document.member(at, "role"));
   const Json& file = document.member(at, "file");
   input.file = document.text(file);
+  const bool traced = input.role == "annotation" && input.file == "auto";
   const bool builtin = input.file.starts_with(kBuiltin);
   if (builtin ? !is_word(input.file.substr(kBuiltin.size())) : !is_file_name(input.file)) {
     document.fail(file, "expected a file name without folders, got '" + printable(input.file, 60) + "'");
   }
   const Json& sha256 = document.member(at, "sha256");
   input.sha256 = document.text(sha256);
-  if (builtin ? !input.sha256.empty() : !is_digest(input.sha256)) {
-    document.fail(sha256, builtin ? "ramify's own exemplars have none" : "expected 64 hexadecimal digits");
+  const bool no_file = builtin || traced;
+  if (no_file ? !input.sha256.empty() : !is_digest(input.sha256)) {
+    document.fail(sha256, no_file ? "there is no file to have one" : "expected 64 hexadecimal digits");
   }
   return input;
 }

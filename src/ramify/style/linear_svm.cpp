@@ -6,12 +6,16 @@
 #include <algorithm>
 #include <memory>
 
+#include "ramify/core/memory.h"
+
 namespace ramify {
 namespace {
 
 struct FreeModel {
   void operator()(svm_model* model) const { svm_free_and_destroy_model(&model); }
 };
+
+constexpr int kCacheMegabytes = 64;
 
 void silent(const char*) {}
 
@@ -58,13 +62,14 @@ Hyperplane train_linear_svm(const std::vector<std::span<const double>>& points, 
     rows.push_back(row);
     targets.push_back(labels[i] ? 1.0 : -1.0);
   }
+  require_memory((std::size_t{kCacheMegabytes} << 20) + 256 * points.size() + (8u << 20));  // libsvm does not look
   svm_problem problem{static_cast<int>(points.size()), targets.data(), rows.data()};
   int weighted_label = 1;
   double label_weight = static_cast<double>(negatives) / static_cast<double>(positives);
   svm_parameter parameter{};
   parameter.svm_type = C_SVC;
   parameter.kernel_type = LINEAR;
-  parameter.cache_size = 64;
+  parameter.cache_size = kCacheMegabytes;
   parameter.eps = 1e-3;
   parameter.C = softness;
   parameter.nr_weight = 1;
