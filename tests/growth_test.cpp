@@ -374,3 +374,19 @@ TEST_CASE("a given root keeps its place and radius") {
   target.roots = {{Vec2(900, 200), {}, {}}};
   CHECK_THROWS_AS(grow_from_style(style_of({}, 18), target, GrowOptions{}, Rng(1), Monitor{}), InputError);
 }
+
+TEST_CASE("a root on a landmark stays where the kept ground has it") {
+  const Skeleton tree = test::wavy_tree({}, 3);
+  std::vector<NodePlace> places(static_cast<std::size_t>(tree.count()), NodePlace::Ground);
+  places.front() = NodePlace::Landmark;
+  const Style style = learn_style(tree, LearnStyleOptions{}, Monitor{}, places);
+  GrowthTarget target = canvas(tree.size.width, tree.size.height);
+  target.kept = KeptGround{1.05, Vec2(7.0, -3.0)};
+  const Vec2 wanted = 1.05 * style.bending.point.front() + Vec2(7.0, -3.0);
+  for (int seed = 1; seed <= 4; ++seed) {
+    const Skeleton grown = grow_from_style(style, target, GrowOptions{}, Rng(static_cast<std::uint64_t>(seed)), Monitor{});
+    double nearest = 1e9;
+    for (const Node& node : grown.nodes()) nearest = std::min(nearest, (node.xy() - wanted).norm());
+    CHECK(nearest < 1e-6);
+  }
+}

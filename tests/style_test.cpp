@@ -99,6 +99,36 @@ TEST_CASE("a loose tree near a branch is tied to it and a speck is dropped") {
   CHECK(roots == 1);
 }
 
+TEST_CASE("a stump drawn first at the root does not swallow the tree") {
+  const Skeleton tree = test::wavy_tree({}, 3);
+  const int branches = learn_style(tree, LearnStyleOptions{}, Monitor{}).bending.branch_count();
+  Skeleton with_stump;
+  with_stump.size = tree.size;
+  with_stump.append(tree[0]);
+  with_stump.append({tree[0].position + Vec3(-4, 0, 0), 2.0, 0});
+  with_stump.append({tree[0].position + Vec3(-8, 0, 0), 2.0, 1});
+  for (int i = 1; i < tree.count(); ++i) {
+    Node node = tree[i];
+    node.parent = node.parent == 0 ? 0 : node.parent + 2;
+    with_stump.append(node);
+  }
+  const Style style = learn_style(with_stump, LearnStyleOptions{}, Monitor{});
+  CHECK(style.bending.branch_count() == branches);
+  CHECK(style.hierarchy.branches.front().parent == kNone);
+}
+
+TEST_CASE("branches that end on the habitat's border end as at the frame and landmark roots are known") {
+  const Skeleton tree = test::wavy_tree({}, 3);
+  std::vector<NodePlace> places(static_cast<std::size_t>(tree.count()), NodePlace::Ground);
+  places.front() = NodePlace::Landmark;
+  for (std::size_t i = 1; i < places.size(); ++i) places[i] = NodePlace::Border;
+  const Style style = learn_style(tree, LearnStyleOptions{}, Monitor{}, places);
+  CHECK(style.hierarchy.branches.front().starts_on_landmark);
+  CHECK(style.hierarchy.branches.front().end == BranchEnd::Frame);
+  const Style plain = learn_style(tree, LearnStyleOptions{}, Monitor{});
+  CHECK_FALSE(plain.hierarchy.branches.front().starts_on_landmark);
+}
+
 TEST_CASE("a style survives its JSON exactly") {
   const Style style = learn_style(test::wavy_tree({}, 4), LearnStyleOptions{}, Monitor{});
   const std::string text = style_text(style);

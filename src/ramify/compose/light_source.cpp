@@ -18,7 +18,7 @@ namespace {
 constexpr double kThin = 3.2;          // px; below, a bright surround shows more than the branch
 constexpr double kBrightHalo = 0.06;   // linear light
 constexpr double kHaloCost = 8.0;
-constexpr double kOddHue = 1.3;         // log ratio
+constexpr double kOddHue = 0.6;         // log ratio
 constexpr double kLeastOfParent = 0.75; // a child is dimmed to its parent's level, but no further than this
 constexpr double kBadTemplate = 0.7;    // cost of a template strand that is not fit to be copied
 constexpr float kWhite = 1.0f;          // linear light; for absorbing layers a transmission of 0.37, dark enough

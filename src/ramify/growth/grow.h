@@ -20,6 +20,12 @@ struct GrowthRoot {
   std::optional<double> radius;          // px; from the style when empty
 };
 
+// Where the exemplar's own ground lies on the canvas: canvas = scale * exemplar + shift.
+struct KeptGround {
+  double scale = 1.0;
+  Vec2 shift = Vec2::Zero();  // px
+};
+
 struct GrowthTarget {
   Size size;                    // px, the canvas
   std::vector<GrowthRoot> roots;// empty: the style's own (frame roots and landmark roots)
@@ -28,6 +34,7 @@ struct GrowthTarget {
   ScalarImage guide_map;        // empty, or 1 on the course and 0 elsewhere; its longest way is the course
   Mask outside;                 // empty, or 255 where growth leaves as through the frame
   Mask obstacles;               // empty, or 255 where nothing may grow
+  std::optional<KeptGround> kept;  // given: roots on a landmark start exactly where the exemplar's do
 };
 
 struct GrowOptions {

@@ -47,9 +47,14 @@ RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tr
   const Size size = state.target.size;
   RootPlan plan;
   plan.source = source;
-  const Vec2 place = on_this_canvas(state, state.style.bending.point[state.style.bending.first[source]]);
-  const Vec2 jitter = branch.starts_on_frame ? slide_along_frame(place, tree_jitter, size) : tree_jitter;
-  plan.position = (place + jitter).cwiseMax(Vec2::Zero()).cwiseMin(Vec2(size.width - 1, size.height - 1));
+  const Vec2 own = state.style.bending.point[state.style.bending.first[source]];
+  const Vec2 low = Vec2::Zero(), high(size.width - 1, size.height - 1);
+  if (branch.starts_on_landmark && state.target.kept) {
+    plan.position = (state.target.kept->scale * own + state.target.kept->shift).cwiseMax(low).cwiseMin(high);
+  } else {
+    const Vec2 place = on_this_canvas(state, own);
+    plan.position = (place + (branch.starts_on_frame ? slide_along_frame(place, tree_jitter, size) : tree_jitter)).cwiseMax(low).cwiseMin(high);
+  }
   // The surer the exemplar's main direction, the less it is disturbed.
   const double jitter_scale = kTurnJitter * std::clamp(2.0 * (1.0 - state.style.hierarchy.headings[0].strength), 0.25, 1.0);
   const double turn = jitter_scale * rng.normal();

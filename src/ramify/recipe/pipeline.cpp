@@ -159,9 +159,35 @@ Mask no_habitat(const Habitat& habitat, const BackgroundPlan& plan) {
   return on_canvas(map, plan);
 }
 
+// Which nodes lie on a landmark, and which where the habitat ends. A border is met a little before it: annotations stop
+// short of a field's rim.
+std::vector<NodePlace> node_places(const Skeleton& skeleton, const Habitat& habitat) {
+  std::vector<NodePlace> places(static_cast<std::size_t>(skeleton.count()), NodePlace::Ground);
+  const ScalarImage to_border = distance_to(habitat.outside);
+  constexpr double kShort = 8.0;  // px
+  for (int i = 0; i < skeleton.count(); ++i) {
+    const int x = static_cast<int>(std::lround(skeleton[i].xy().x())), y = static_cast<int>(std::lround(skeleton[i].xy().y()));
+    if (habitat.role.clamped(x, y) == static_cast<std::uint8_t>(RegionRole::Landmark)) {
+      places[static_cast<std::size_t>(i)] = NodePlace::Landmark;
+    } else if (to_border.clamped(x, y) <= skeleton[i].radius + kShort) {
+      places[static_cast<std::size_t>(i)] = NodePlace::Border;
+    }
+  }
+  return places;
+}
+
+// Where the photo lies on the canvas as growth sees it: never mirrored.
+std::optional<KeptGround> kept_ground(const BackgroundPlan& plan, int photo_width) {
+  if (plan.mode == BackgroundMode::New) return std::nullopt;
+  KeptGround kept{plan.scale, plan.shift};
+  if (plan.flipped) kept.shift.x() = plan.canvas.width - 1.0 - plan.shift.x() - plan.scale * (photo_width - 1.0);
+  return kept;
+}
+
 Skeleton grow_on_plan(const LoadedRequest& loaded, const BackgroundPlan& plan, const Rng& rng, const Monitor& monitor) {
   GrowthTarget target = loaded.target;
   target.outside = no_habitat(loaded.scene.habitat, plan);
+  target.kept = kept_ground(plan, loaded.source.exemplar.photo.color.width());
   const GrowOptions& options = loaded.request.options.grow;
   if (!plan.flipped) return grow_from_style(loaded.style, target, options, rng, monitor);
   return mirrored(grow_from_style(loaded.style, mirrored(target), options, rng, monitor));
@@ -216,11 +242,14 @@ LoadedRequest load_request(const PictureRequest& request, const Monitor& monitor
   loaded.target.roots = parse_roots(request.options.roots);
   load_guides(loaded, monitor);
   const Exemplar& exemplar = loaded.source.exemplar;
-  if (!loaded.skeleton) loaded.style = learn_style(exemplar.skeleton, request.options.learn, monitor.stage("learn", 0.2, 0.3));
   if (request.verb == "grow") {
-    loaded.scene.habitat = find_habitat(exemplar, HabitatOptions{}, Rng(0).child("scene").child("habitat"), monitor.stage("habitat", 0.3, 1.0));
+    loaded.scene.habitat = find_habitat(exemplar, HabitatOptions{}, Rng(0).child("scene").child("habitat"), monitor.stage("habitat", 0.2, 0.9));
   } else {
-    loaded.scene = prepare_scene(exemplar, request.options.compose, monitor.stage("scene", 0.3, 1.0));
+    loaded.scene = prepare_scene(exemplar, request.options.compose, monitor.stage("scene", 0.2, 0.9));
+  }
+  if (!loaded.skeleton) {
+    loaded.style = learn_style(exemplar.skeleton, request.options.learn, monitor.stage("learn", 0.9, 1.0),
+                               node_places(exemplar.skeleton, loaded.scene.habitat));
   }
   return loaded;
 }

@@ -77,7 +77,8 @@ double bend_amplitude(const std::vector<std::vector<Vec2>>& curves, double step,
 
 }  // namespace
 
-std::vector<CleanBranch> clean_branches(const Skeleton& skeleton, const Monitor& monitor) {
+std::vector<CleanBranch> clean_branches(const Skeleton& skeleton, const std::vector<NodePlace>& places, const Monitor& monitor) {
+  const auto lies_on = [&](int node, NodePlace place) { return !places.empty() && places[static_cast<std::size_t>(node)] == place; };
   const RootedGraph graph = tie_loose_trees(skeleton, monitor);
   std::vector<CleanBranch> branches;
   std::vector<int> kept(graph.runs.size(), kNone);
@@ -89,8 +90,12 @@ std::vector<CleanBranch> clean_branches(const Skeleton& skeleton, const Monitor&
       branch.points.push_back(skeleton[node].xy());
       branch.radii.push_back(std::max(0.5, skeleton[node].radius));
     }
-    branch.starts_on_frame = run.parent_run == kNone && on_frame(branch.points.front(), branch.radii.front(), skeleton.size);
-    branch.end = on_frame(branch.points.back(), branch.radii.back(), skeleton.size) ? BranchEnd::Frame : BranchEnd::Tip;
+    const int start = run.nodes.front(), end = run.nodes.back();
+    branch.starts_on_frame = run.parent_run == kNone && (on_frame(branch.points.front(), branch.radii.front(), skeleton.size) ||
+                                                         lies_on(start, NodePlace::Border));
+    branch.starts_on_landmark = run.parent_run == kNone && lies_on(start, NodePlace::Landmark);
+    const bool leaves = on_frame(branch.points.back(), branch.radii.back(), skeleton.size) || lies_on(end, NodePlace::Border);
+    branch.end = leaves ? BranchEnd::Frame : BranchEnd::Tip;
     branch.tree = static_cast<int>(r);
     if (run.parent_run != kNone) {
       branch.parent = kept[run.parent_run];

@@ -19,13 +19,15 @@ struct CleanBranch {
   double parent_radius = 0.0;      // px, there
   int order = 0;
   int tree = 0;                    // branches of one tree share it
-  bool starts_on_frame = false;
+  bool starts_on_frame = false;    // or on the border of the habitat
+  bool starts_on_landmark = false;
   BranchEnd end = BranchEnd::Tip;
 };
 
 // Loose trees whose end lies within 10 px of another branch's rim become its children; trees shorter than 1.5 % of the
 // length that do not reach the frame, and spurs, are dropped. The roots given stay roots.
-std::vector<CleanBranch> clean_branches(const Skeleton& skeleton, const Monitor& monitor);
+// places: one for every node, or empty.
+std::vector<CleanBranch> clean_branches(const Skeleton& skeleton, const std::vector<NodePlace>& places, const Monitor& monitor);
 
 // The size of a typical bend, px: the smallest chord over which the r.m.s. distance of the curve from its chord hardly
 // grows any more (d log(rms / L) / d log L < 0.3), clamped to 12 px … 0.1 x the shorter side (PICTURES 12.2-1), and to

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "ramify/core/types.h"
@@ -15,9 +16,12 @@ inline constexpr int kHeadingBins = 16;   // over the full circle, from -pi
 inline constexpr int kHeadingOrders = 4;  // orders beyond the last share its histogram
 inline constexpr int kHabitatCells = 16;  // per side, of the coarse map of where branches live
 
+// What a node of the exemplar lies on. Where the habitat ends (a field's rim, a skyline) branches end as at the frame.
+enum class NodePlace : std::uint8_t { Ground, Border, Landmark };
+
 enum class BranchEnd {
   Tip,    // it ends inside the picture
-  Frame,  // it is cut by the frame
+  Frame,  // it is cut by the frame, or by the border of the habitat
   Join    // it runs into another branch (a T)
 };
 
@@ -30,7 +34,8 @@ struct SourceBranch {
   double rim_angle = 0.0;     // from the parent's direction to the line from its axis to the first vertex
   double start_angle = 0.0;   // from the parent's direction to the child's first direction
   double ratio = 1.0;         // its radius at the start (beyond the parent's influence) over the parent's
-  bool starts_on_frame = false;
+  bool starts_on_frame = false;    // or on the border of the habitat
+  bool starts_on_landmark = false; // it starts from something that stays visible where the ground is kept
   BranchEnd end = BranchEnd::Tip;
 };
 

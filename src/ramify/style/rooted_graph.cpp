@@ -105,6 +105,7 @@ class Walker {
     for (const int node : order) {
       if (turned[tree[node]]) put_continuation_first(node);
     }
+    put_longest_first(root);
     return length;
   }
 
@@ -124,6 +125,14 @@ class Walker {
   }
 
  private:
+  // A stump at the root (a collar drawn first) leads no tree: the way that goes on does.
+  void put_longest_first(int root) {
+    std::vector<int>& children = children_[root];
+    if (children.size() < 2) return;
+    const auto longest = std::max_element(children.begin(), children.end(), [&](int a, int b) { return beyond_[a] < beyond_[b]; });
+    if (beyond_[children.front()] < 0.1 * beyond_[*longest]) std::rotate(children.begin(), longest, longest + 1);
+  }
+
   void put_continuation_first(int node) {
     std::vector<int>& children = children_[node];
     if (children.size() < 2) return;

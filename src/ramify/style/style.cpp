@@ -84,6 +84,7 @@ Learnt resample_all(const std::vector<CleanBranch>& branches, double step, int e
     source.order = branch.order;
     source.tree = branch.tree;
     source.starts_on_frame = branch.starts_on_frame;
+    source.starts_on_landmark = branch.starts_on_landmark;
     source.end = branch.end;
     if (branch.parent != kNone) {
       source.parent = kept[branch.parent];
@@ -109,11 +110,12 @@ std::vector<OptionField> describe(LearnStyleOptions& options) {
   };
 }
 
-Style learn_style(const Skeleton& exemplar, const LearnStyleOptions& given, const Monitor& monitor) {
+Style learn_style(const Skeleton& exemplar, const LearnStyleOptions& given, const Monitor& monitor,
+                  const std::vector<NodePlace>& places) {
   LearnStyleOptions options = given;
   check_options(describe(options));
   if (exemplar.size.width < 1 || exemplar.size.height < 1) throw InputError("", "the skeleton has no canvas size");
-  std::vector<CleanBranch> branches = clean_branches(exemplar, monitor);
+  std::vector<CleanBranch> branches = clean_branches(exemplar, places, monitor);
   monitor.report(0.2);
   Style style;
   style.exemplar_size = exemplar.size;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "ramify/core/monitor.h"
 #include "ramify/core/options.h"
@@ -35,8 +36,10 @@ struct Style {
   Hierarchy hierarchy;        // roots, template branches, orders, headings, lengths, tips, spacing
 };
 
-// Throws InputError when the skeleton is too small to learn from (it says how much is needed).
-Style learn_style(const Skeleton& exemplar, const LearnStyleOptions& options, const Monitor& monitor);
+// places: one for every node; empty = all on the ground. Throws InputError when the skeleton is too small to learn from
+// (it says how much is needed).
+Style learn_style(const Skeleton& exemplar, const LearnStyleOptions& options, const Monitor& monitor,
+                  const std::vector<NodePlace>& places = {});
 
 // JSON. parse_style(style_text(s), name) equals s exactly, and throws InputError naming the path of what is wrong.
 std::string style_text(const Style& style);

@@ -69,6 +69,7 @@ Json hierarchy_json(const Hierarchy& h) {
                         {"start_angle", b.start_angle},
                         {"ratio", b.ratio},
                         {"starts_on_frame", b.starts_on_frame},
+                        {"starts_on_landmark", b.starts_on_landmark},
                         {"end", kEndNames[static_cast<std::size_t>(b.end)]}});
   }
   return {{"branches", branches},
@@ -238,6 +239,7 @@ SourceBranch read_branch(const Reader& in, const BendingModel& bending, int numb
   b.start_angle = in["start_angle"].real();
   b.ratio = in["ratio"].real(1e-9, kHuge);
   b.starts_on_frame = in["starts_on_frame"].truth();
+  b.starts_on_landmark = in["starts_on_landmark"].truth();
   const std::string end = in["end"].text();
   const auto known = std::find(kEndNames.begin(), kEndNames.end(), end);
   if (known == kEndNames.end()) in["end"].fail("'tip', 'frame' or 'join' is expected");
