@@ -14,6 +14,7 @@ std::vector<OptionField> describe(ComposeOptions& o) {
           flag("paper-greedy", o.paper_greedy, "Paper: greedy choice with summed colour difference."),
           flag("paper-order", o.paper_order, "Paper: parents first, furcations laid over them."),
           flag("paper-rigid", o.paper_rigid, "Fragments are turned but not bent (the paper's figure 5a)."),
+          flag("paper-warp", o.paper_warp, "Paper: bent by the squared Laplacian, centre line alone."),
           flag("paper-cut", o.paper_cut, "Paper: seams by colour difference alone."),
           flag("paper-blend", o.paper_blend, "Paper: one gradient-domain problem after the other."),
           flag("free-rims", o.free_rims, "With --paper-blend: the plain variant that drifts (figure 5b)."),

@@ -28,6 +28,7 @@ struct ComposeOptions {
   bool paper_greedy = false;   // greedy choice with summed overlap colour, random among the best two
   bool paper_order = false;    // parents first, furcations laid over them
   bool paper_rigid = false;    // no warp
+  bool paper_warp = false;     // warp by the squared Laplacian through the centre line
   bool paper_cut = false;      // seams by colour difference alone, without history
   bool paper_blend = false;    // one Poisson problem after the other
   bool free_rims = false;      // with paper_blend: rims not held, the plain variant that drifts

@@ -27,10 +27,12 @@ Mask role_mask(const Habitat& habitat, RegionRole role) {
 }
 
 void check_paper_flags(const ComposeOptions& o, CompositeMode mode) {
-  const bool paper = o.paper_spacing || o.paper_greedy || o.paper_order || o.paper_rigid || o.paper_cut || o.paper_blend || o.free_rims;
+  const bool paper = o.paper_spacing || o.paper_greedy || o.paper_order || o.paper_rigid || o.paper_warp || o.paper_cut ||
+                     o.paper_blend || o.free_rims || o.paper_exact;
   if (paper && mode != CompositeMode::Paste) {
     throw OptionError("paper-…", "", "the paper's single steps have an effect on pasted branches only; add --composite paste");
   }
+  if (o.paper_rigid && o.paper_warp) throw OptionError("paper-warp", "", "says how to bend, --paper-rigid not to bend at all; give one");
   if (o.free_rims && !o.paper_blend && !o.paper_exact) throw OptionError("free-rims", "", "has an effect with --paper-blend only");
 }
 
@@ -53,7 +55,9 @@ Composite compose_pasted(const Exemplar& exemplar, const ComposeScene& scene, co
   placement.leave_out = options.leave_out;
   placement.paper_greedy = options.paper_greedy || exact;
   placement.bend = !options.paper_rigid;
+  placement.paper_warp = options.paper_warp || exact;
   PasteOptions paste;
+  paste.paper_order = options.paper_order || exact;
   paste.paper_cut = options.paper_cut || exact;
   paste.paper_blend = options.paper_blend || exact;
   paste.free_rims = options.free_rims;
