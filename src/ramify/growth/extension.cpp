@@ -222,16 +222,25 @@ double longest(const GrowthState& state, const GrowingBranch& branch) {
   return branch.length * (end == BranchEnd::Tip || state.options.paper_exact ? 1.0 : 1.5);
 }
 
-// Ends made by growth alone fade as the exemplar's tips do.
+// Ends made by growth alone fade as the exemplar's tips do. A wide branch that was stopped short needs more way than they
+// and comes down to the exemplar's thinnest: else rivers end blunt inland.
 void taper_tip(GrowthState& state, int number) {
-  const GrowingBranch& branch = state.branches[number];
+  constexpr double kWay = 8.0;   // radii
+  constexpr double kWide = 8.0;  // times the thinnest
+  GrowingBranch& branch = state.branches[number];
   if (branch.stop == GrowthStop::Frame || branch.stop == GrowthStop::Join) return;
-  const bool learnt = state.style.hierarchy.branches[branch.source].end == BranchEnd::Tip;
-  if (learnt && branch.arc(state.style.step) > 0.9 * branch.length) return;  // the template's own tip
-  const std::vector<double>& profile = state.style.hierarchy.tip_profile;
-  const int last = static_cast<int>(profile.size()) - 1, tip = branch.count() - 1;
-  for (int j = 0; j <= std::min(last, tip); ++j) {
-    state.branches[number].radii[tip - j] = std::max(0.5, branch.radii[tip - j] * profile[j]);
+  const Hierarchy& learnt = state.style.hierarchy;
+  const double radius = branch.radii.back();
+  const bool wide = radius > kWide * learnt.least_radius && !state.options.paper_exact;
+  const bool tip = learnt.branches[branch.source].end == BranchEnd::Tip && branch.arc(state.style.step) > 0.9 * branch.length;
+  if (tip && !wide) return;  // the template's own tip; where that is wide its trace was cut short
+  const int last = static_cast<int>(learnt.tip_profile.size()) - 1, end = branch.count() - 1;
+  const int way = wide ? std::max(last, static_cast<int>(kWay * radius / state.style.step)) : last;
+  const double pointed = wide ? learnt.least_radius / radius : 1.0;
+  for (int j = 0; j <= std::min(way, end); ++j) {
+    const double share = static_cast<double>(j) / way;
+    const double factor = learnt.tip_profile[static_cast<std::size_t>(std::lround(share * last))];
+    branch.radii[end - j] = std::max(0.5, branch.radii[end - j] * factor * (pointed + (1.0 - pointed) * std::sqrt(share)));
   }
 }
 
