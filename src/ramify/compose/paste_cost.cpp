@@ -15,6 +15,7 @@ constexpr double kOffCentre = 50;       // prefers the fragment whose centre is 
 constexpr int kNoOverlap = 20'000;
 constexpr double kSeam = 30;            // of any seam, however good
 constexpr double kDiscShare = 0.95;     // of the disc radius
+constexpr int kBeyondDisc = 100'000;    // cheaper than a hole in a branch, dearer than anything else
 
 }  // namespace
 
@@ -81,7 +82,8 @@ int PasteCost::data(int label, int x, int y) const {
   const Placement& placement = plan_.placements[label];
   const double distance = std::hypot(x - placement.centre.x(), y - placement.centre.y());
   const Patch& patch = patches_[label];
-  if (distance > kDiscShare * placement.radius || !patch.usable(x, y)) return kForbiddenCost;
+  const bool beyond = distance > kDiscShare * placement.radius;
+  if (!patch.usable(x, y) || (beyond && !in_core(x, y))) return kForbiddenCost;
   const float there = patch.distance_at(x, y), here = plan_.field.signed_distance(x, y);
   double cost = kOffCentre * distance / placement.radius;
   if ((there > 0) != (here > 0) && std::abs(there - here) > 1.5f) {
@@ -89,7 +91,7 @@ int PasteCost::data(int label, int x, int y) const {
   } else if (here > 2.0f && patch.state(x - patch.left, y - patch.top) == PatchPixel::Shadowed) {
     cost += kShadow;
   }
-  return static_cast<int>(cost);
+  return static_cast<int>(cost) + (beyond ? kBeyondDisc : 0);
 }
 
 float PasteCost::step(int label, int x, int y, int dx, int dy) const {
