@@ -11,6 +11,7 @@ namespace ramify {
 namespace {
 
 constexpr double kNoiseFactor = 8.0;  // a line starts at this many times the median response
+constexpr double kGlowFactor = 14.0;  // where branches glow: most of the sky is black and its median response tiny
 constexpr double kLargestShare = 0.4;  // of the picture: thicker classes are background
 constexpr double kLongest = 10.0;      // smallest area of a thick branch over its largest radius squared (a disc has 3.1)
 constexpr double kLowShare = 0.35;    // and goes on at this share of it (ALGORITHMS 3.3-3)
@@ -133,7 +134,7 @@ RidgeEvidence gather_evidence(const ColorImage& photo, const Mask& excluded, con
   RidgeOptions ridge{e.bright, std::max(0.7, 0.8 * options.min_radius), std::max(1.0, options.max_radius)};
   const bool flatten = options.flatten && !e.glow;
   e.field = ridge_field(flatten ? flattened(e.picture, 4.0 * options.max_radius) : e.picture, ridge, monitor);
-  e.high = std::max(kNoiseFactor * median_positive(e.field.strength, excluded), 1e-3) / options.sensitivity;
+  e.high = std::max((e.glow ? kGlowFactor : kNoiseFactor) * median_positive(e.field.strength, excluded), 1e-3) / options.sensitivity;
   e.low = kLowShare * e.high;
   e.thick = options.mode == TraceMode::Ridge
                 ? Mask(photo.size())

@@ -16,7 +16,7 @@ namespace ramify {
 struct WidthProbeOptions {
   bool bright = true;         // branch brighter than its surround
   bool glow = false;          // half contrast instead of edge pairs
-  double blur = 0.8;          // px, blur of the photo: thin bars look wider than they are by it
+  double blur = 0.5;          // px, blur of the photo: thin bars look wider than they are by it
   double max_radius = 100.0;  // px
 };
 
