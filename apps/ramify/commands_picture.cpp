@@ -71,7 +71,7 @@ std::vector<std::string> all_outputs(const PictureArguments& a) {
 void check_names(const PictureArguments& a, const std::vector<std::string>& main_kinds) {
   check_extension("output", a.output, main_kinds);
   const int depth = a.request.options.depth;
-  if (depth != 0 && fitting_bits(a.output, depth) != depth) {
+  if ((depth == 8 || depth == 16 || depth == 32) && fitting_bits(a.output, depth) != depth) {
     throw OptionError("depth", std::to_string(depth), extension_of(a.output) + " pictures have " + std::to_string(fitting_bits(a.output, depth)) +
                       " bits; choose that depth or another format");
   }

@@ -32,6 +32,17 @@ class SameBytes(CliTest):
         self.ok("synth", "builtin:vessel", "--size", "320x240", "-o", out, "--seed", "3", "--tropism", "0.5")
         self.ok("replay", out, "-o", self.path("b.png"))
         self.assertEqual(self.digest(out), self.digest(self.path("b.png")))
+        traced = self.path("traced.png")
+        self.ok("synth", self.photo, "--annotation", "auto", "-o", traced)
+        self.ok("replay", traced, "-o", self.path("again.png"), env={"RAMIFY_PHOTOS": str(self.small)})
+        self.assertEqual(self.digest(traced), self.digest(self.path("again.png")))
+
+    def test_replay_reads_the_recipe_in_every_format(self):
+        for kind in ("tif", "webp", "exr"):
+            out, again = self.path("a." + kind), self.path("b." + kind)
+            self.ok("synth", self.exemplar, "-o", out, "--size", "120x90")
+            self.ok("replay", out, "-o", again, env={"RAMIFY_PHOTOS": str(self.small)})
+            self.assertEqual(self.digest(out), self.digest(again))
         jpg = self.path("c.jpg")
         self.ok("synth", self.exemplar, "-o", jpg)
         self.ok("replay", jpg, "-o", self.path("d.jpg"), env={"RAMIFY_PHOTOS": str(self.small)})

@@ -33,6 +33,8 @@ class Usage(CliTest):
             self.fails(2, "size", "synth", self.exemplar, *out, "--size", size)
         self.fails(2, "--tropism", "synth", self.exemplar, *out, "--tropism", "9")
         self.fails(2, "--roots", "synth", self.exemplar, *out, "--roots", "1")
+        self.fails(2, "--depth", "synth", self.exemplar, *out, "--depth", "12")
+        self.fails(2, "--depth", "synth", self.exemplar, "-o", "a.jpg", "--depth", "16")
         self.fails(2, "--background", "synth", self.exemplar, *out, "--background", "blue")
 
     def test_canvas_limit_is_known_before_work(self):

@@ -319,8 +319,10 @@ Habitat find_habitat(const Exemplar& exemplar, const HabitatOptions& options, Rn
   habitat.shadow_share = ground > 0.0 ? marked / ground : 0.0;
   habitat.shadow_is_texture = habitat.shadow_share > options.texture_share && is_everywhere(shadow, add(branches, habitat.outside), habitat.shadow_share);
   const int percent = static_cast<int>(std::lround(100.0 * habitat.shadow_share));
-  monitor.note("branch-like lines nobody annotated cover " + std::to_string(percent) + " % of the background" +
-               (habitat.shadow_is_texture ? ": taken for its texture" : ""));
+  if (percent > 0) {
+    monitor.note("branch-like lines nobody annotated cover " + std::to_string(percent) + " % of the background" +
+                 (habitat.shadow_is_texture ? ": taken for its texture" : ""));
+  }
   monitor.report(1.0);
   return habitat;
 }
