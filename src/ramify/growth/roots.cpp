@@ -42,7 +42,7 @@ Vec2 slide_along_frame(const Vec2& point, Vec2 jitter, Size size) {
   return jitter;
 }
 
-RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tree_jitter, Rng& rng) {
+RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tree_jitter, double freedom, Rng& rng) {
   const SourceBranch& branch = state.style.hierarchy.branches[source];
   const Size size = state.target.size;
   RootPlan plan;
@@ -56,7 +56,7 @@ RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tr
     plan.position = (place + (branch.starts_on_frame ? slide_along_frame(place, tree_jitter, size) : tree_jitter)).cwiseMax(low).cwiseMin(high);
   }
   // The surer the exemplar's main direction, the less it is disturbed.
-  const double jitter_scale = kTurnJitter * std::clamp(2.0 * (1.0 - state.style.hierarchy.headings[0].strength), 0.25, 1.0);
+  const double jitter_scale = freedom * kTurnJitter * std::clamp(2.0 * (1.0 - state.style.hierarchy.headings[0].strength), 0.25, 1.0);
   const double turn = jitter_scale * rng.normal();
   plan.direction = template_direction(state.style, source) + turn;
   plan.heading = template_heading(state.style, source) + 0.5 * turn + jitter_scale * rng.normal();
@@ -97,9 +97,12 @@ std::vector<int> grow_own_roots(GrowthState& state) {
     const int tree = state.style.hierarchy.branches[source].tree;
     Rng rng = state.rng.child("grow.root", static_cast<std::uint64_t>(source));
     for (int attempt = 0; attempt < kTries; ++attempt) {
-      const Vec2 drawn(rng.uniform(-1, 1) * kJitter * size.width, rng.uniform(-1, 1) * kJitter * size.height);
+      // Nearer and nearer to the exemplar's own place and direction: a stalk may leave it no other.
+      const double freedom = static_cast<double>(kTries - 1 - attempt) / (kTries - 1);
+      const double reach = freedom * kJitter;
+      const Vec2 drawn(rng.uniform(-1, 1) * reach * size.width, rng.uniform(-1, 1) * reach * size.height);
       if (attempt > 0 || !tree_jitter.contains(tree)) tree_jitter[tree] = drawn;
-      const RootPlan plan = plan_from_template(state, source, tree_jitter[tree], rng);
+      const RootPlan plan = plan_from_template(state, source, tree_jitter[tree], freedom, rng);
       if (!state.ground.inside(plan.position) || state.ground.blocked(plan.position)) continue;
       const int number = place_root(state, plan, rng);
       if (number == kNone) continue;
