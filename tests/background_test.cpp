@@ -100,7 +100,7 @@ TEST_CASE("vary moves landmarks and outside shapes rigidly and keeps the grain")
     const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, s.plate, {640, 480}, with(BackgroundMode::Vary), Rng(seed));
     CHECK(plan.scale == 1.0);  // an enlargement would cut the outside shape
     const Background b = make_background(s.exemplar, s.habitat, s.plate, plan, {}, Rng(seed), {});
-    for (const Vec2 p : {Vec2(320.0, 120.0), Vec2(370.0, 170.0), Vec2(50.0, 460.0)}) {
+    for (const Vec2& p : {Vec2(320.0, 120.0), Vec2(370.0, 170.0), Vec2(50.0, 460.0)}) {
       const Vec2 q = plan.canvas_from_photo(p, 640);
       const auto source = b.source(static_cast<int>(std::lround(q.x())), static_cast<int>(std::lround(q.y())));
       CHECK(source.x() == Approx(p.x()).margin(0.01));
