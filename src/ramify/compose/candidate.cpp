@@ -14,6 +14,8 @@ constexpr std::size_t kShapeSurvivors = 120;  // go on to the dearer terms
 constexpr std::size_t kKept = 24;
 constexpr std::size_t kCompared = 1200;
 constexpr std::size_t kEnough = 60;           // candidates of nearly the same width
+constexpr double kLitTurn = 25.0 * kPi / 180;  // rad, by which light from one side may turn unseen (PICTURES 8)
+constexpr double kLightWeight = 4.0;          // of turns beyond, times the light's strength
 constexpr int kDiscGrid = 9;                  // disagreement is sampled on 19 x 19 points
 
 Vec2 mirrored(const Vec2& v, bool mirror) { return mirror ? Vec2(-v.x(), v.y()) : v; }
@@ -75,10 +77,13 @@ bool same_kind(const Fragment& source, const Fragment& target, bool any_end) {
 
 // Cost of a source apart from its shape: light that would fall from elsewhere, another scale of grain, faintness.
 double fitness_cost(const CandidateContext& context, const Candidate& c) {
-  // A few hundred neighbouring discs correlate up to about 0.25 by chance alone.
-  const double light = 2.0 * std::max(0.0, context.library.light_strength - 0.25);
+  double light = 0.0;
+  if (is_shaded(context.library)) {
+    const double excess = std::max(0.0, std::abs(c.angle) - kLitTurn);
+    light = kLightWeight * context.library.light_strength * (1.0 - std::cos(std::min(kPi, excess)));
+  }
   const double faint = context.shapes[c.source].faintness, log_scale = c.scale == 1.0 ? 0.0 : std::log(c.scale);
-  return light * (1.0 - c.cosine) + 0.2 * log_scale * log_scale + context.options.contrast_weight * faint * faint;
+  return light + 0.2 * log_scale * log_scale + context.options.contrast_weight * faint * faint;
 }
 
 // A share of them, another one for every target: more than kCompared sources differ by a few pixels only.
@@ -113,7 +118,7 @@ std::vector<int> comparable_sources(const CandidateContext& context, const Fragm
 
 std::vector<Candidate> match_shapes(const CandidateContext& context, const Fragment& target, int target_index, bool any_end) {
   const PlacementOptions& options = context.options;
-  const bool may_mirror = options.mirror && context.library.light_strength < 0.35;
+  const bool may_mirror = options.mirror && !is_shaded(context.library);
   const double omega = options.paper_greedy ? 2.0 : 1.0;
   const Shape wanted = shape_of(target, false);
   std::vector<Candidate> found;

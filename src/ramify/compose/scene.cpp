@@ -86,7 +86,7 @@ Composite compose_lit(const Exemplar& exemplar, const ComposeScene& scene, const
   light.brighter = measure_branch_look(exemplar.photo.color, scene.library).contrast > 0.0;
   ComposeOptions own = options;
   if (options.leave_out > 0.0) own.leave_out = options.leave_out * disc_radius(exemplar.unit_radius, FragmentOptions{});
-  return compose_light(light, exemplar.skeleton, skeleton, scene.composite, own, rng.child("light"), monitor);
+  return compose_light(light, exemplar.skeleton, match_radii(skeleton, scene.library), scene.composite, own, rng.child("light"), monitor);
 }
 
 // Where no fragment lies the picture shows the background, and so does its provenance.
@@ -128,7 +128,7 @@ BackgroundPlan plan_scene_background(const Exemplar& exemplar, const ComposeScen
                                      const ComposeOptions& options, Rng rng) {
   BackgroundOptions background;
   background.mode = options.background;
-  background.mirror = options.mirror;
+  background.mirror = options.mirror && !is_shaded(scene.library);  // light never changes sides
   return plan_background(exemplar, scene.habitat, scene.plate, canvas, background, rng);
 }
 

@@ -74,6 +74,10 @@ struct FragmentLibrary {
   double light_strength = 0.0;  // 0..1: how far the brighter bank depends on the branch's direction
 };
 
+// Does light from one side shape the branches (ridges, furrows)? Then nothing may be mirrored and little turned. Measured on
+// ten photos: ridges 0.36, mud 0.37, roots 0.44, all others below 0.2; neighbouring discs correlate by chance that far.
+inline bool is_shaded(const FragmentLibrary& library) { return library.light_strength > 0.3; }
+
 // Throws InputError when there is no fragment at all. Empty masks mean none.
 FragmentLibrary make_fragment_library(const Exemplar& exemplar, Mask shadow, Mask unusable,
                                       const FragmentOptions& options);

@@ -56,15 +56,17 @@ std::vector<int> source_vertices(const BranchCurve& curve, const FragmentOptions
 }
 
 // Share of the brightness difference between the two banks that the branch's direction explains (ALGORITHMS 5.2):
-// least squares of left minus right on cosine and sine.
+// least squares of left minus right on cosine and sine. Grain is taken out before; single pixels of it hide the light.
 double measure_light(const FragmentLibrary& library) {
+  constexpr double kCalm = 2.0, kBeside = 3.0;  // px
+  const ScalarImage lightness = gaussian_blur(channel(library.lab, 0), kCalm);
   double cc = 0, cs = 0, ss = 0, cd = 0, sd = 0, dd = 0;
   for (const Fragment& f : library.fragments) {
     if (f.kind != FragmentKind::Along) continue;
     const ShapeSample& middle = f.shape[f.shape.size() / 2];
-    const Vec2 away = (f.branch_radius + 3.0) * middle.normal, tangent = -perpendicular(middle.normal);
+    const Vec2 away = (f.branch_radius + kBeside) * middle.normal, tangent = -perpendicular(middle.normal);
     auto level = [&](const Vec2& p) {
-      return library.lab.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))).r;
+      return lightness.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
     };
     const double d = level(f.centre + away) - level(f.centre - away), c = tangent.x(), s = tangent.y();
     cc += c * c, cs += c * s, ss += s * s, cd += c * d, sd += s * d, dd += d * d;
