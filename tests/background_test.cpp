@@ -165,6 +165,7 @@ TEST_CASE("a larger canvas extends the photo beyond its frame") {
   CHECK(b.color(50 + 20, 30) == s.plate.color(20, 30));
   for (int y = 0; y < 160; ++y) {
     for (const int x : {0, 10, 45, 255, 299}) CHECK(b.color(x, y).g == Approx(0.5).margin(0.25));
+    CHECK(b.color(49 - 12, y) == b.color(50 + 12, y));
   }
 }
 
@@ -178,4 +179,15 @@ TEST_CASE("the same seed gives the same background and another seed another one"
   const ColorImage first = make(1);
   CHECK(make(1) == first);
   CHECK_FALSE(make(2) == first);
+}
+
+TEST_CASE("beyond the photo only its margin goes on where that lies outside the habitat") {
+  Scene s = ground(200, 160, 0.1f);
+  finish(s);
+  constexpr int kSkyline = 130;  // y below which nothing may grow
+  for (int y = kSkyline; y < 160; ++y) std::fill_n(s.habitat.outside.row(y), 200, std::uint8_t{255});
+  const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, s.plate, {200, 300}, with(BackgroundMode::Keep), Rng(1));
+  const Background b = make_background(s.exemplar, s.habitat, s.plate, plan, {}, Rng(1), {});
+  const int top = static_cast<int>(plan.shift.y());
+  for (int y = 0; y < 300; ++y) CHECK((b.outside(100, y) != 0) == (y >= top + kSkyline));
 }

@@ -112,43 +112,25 @@ Mask mapped(const Mask& photo_mask, const VectorImage& map) {
   return out;
 }
 
-// Keep and Vary: the plate through the map; what the photo does not cover is completed.
-Background taken_over(const Habitat& habitat, const Plate& plate, const BackgroundPlan& plan, const VectorImage& map, Rng rng,
-                      const Monitor& monitor) {
+// Keep and Vary: the plate through the map.
+Background taken_over(const Habitat& habitat, const Plate& plate, const BackgroundPlan& plan, VectorImage map, const Monitor& monitor) {
   Background out;
   out.color = ColorImage(plan.canvas);
-  out.source = map;
-  out.outside = mapped(habitat.outside, map);
-  Mask bare(plan.canvas, 0);
   const bool whole = is_whole(plan);
-  const double right = plate.color.width() - 0.5, bottom = plate.color.height() - 0.5;
+  const Size photo = plate.color.size();
   parallel_for(plan.canvas.height, [&](int y) {
     for (int x = 0; x < plan.canvas.width; ++x) {
-      const Vec2 p = map(x, y).cast<double>();
-      if (p.x() < -0.5 || p.y() < -0.5 || p.x() >= right || p.y() >= bottom) {
-        bare(x, y) = 255;
-      } else if (whole) {
-        out.color(x, y) = plate.color.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
-      } else {
-        out.color(x, y) = sample_lanczos3(plate.color, p);
-      }
+      const Vec2 p = plan.beyond(map(x, y).cast<double>(), photo);
+      map(x, y) = p.cast<float>();
+      out.color(x, y) = whole ? plate.color(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())))
+                              : sample_lanczos3(plate.color, p);
     }
   }, 16);
-  monitor.report(0.2);
+  monitor.report(0.5);
   if (!whole) restore_grain(out.color, plate.color, map);
-  if (mean_of(bare) > 0.0) {
-    CompletionOptions options;
-    options.tone_reach = 200.0;
-    const Completion extended = complete(out.color, bare, add(mapped(habitat.outliers, map), out.outside), options,
-                                         rng.child("extend"), monitor.stage("extend", 0.2, 1.0));
-    out.color = extended.color;
-    for (std::size_t i = 0; i < bare.pixels().size(); ++i) {
-      if (!bare.pixels()[i]) continue;
-      const auto& s = extended.source.pixels()[i];
-      out.source.pixels()[i] = std::isnan(s.x()) ? s : map(static_cast<int>(s.x()), static_cast<int>(s.y()));
-    }
-  }
-  out.source = through_plate(std::move(out.source), plate);
+  out.outside = mapped(habitat.outside, map);
+  out.source = through_plate(std::move(map), plate);
+  monitor.report(1.0);
   return out;
 }
 
@@ -212,7 +194,7 @@ Background make_background(const Exemplar& exemplar, const Habitat& habitat, con
   const VectorImage map = canvas_map(habitat, plan);
   monitor.report(0.05);
   if (plan.mode == BackgroundMode::New) return new_ground(exemplar, habitat, plate, plan, map, target, rng, monitor);
-  return taken_over(habitat, plate, plan, map, rng, monitor);
+  return taken_over(habitat, plate, plan, map, monitor);
 }
 
 }  // namespace ramify

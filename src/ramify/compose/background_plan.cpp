@@ -26,6 +26,43 @@ void cover(BackgroundPlan& plan, Size photo, bool may_scale) {
                 std::floor(0.5 * (plan.canvas.height - plan.scale * photo.height))};
 }
 
+// How deep what lies outside the habitat reaches in from each edge, where an edge is mostly outside; else all of the photo.
+std::array<int, 4> outside_margins(const Mask& outside) {
+  const int w = outside.width(), h = outside.height();
+  std::array<int, 4> margins{w, h, w, h};
+  for (int edge = 0; edge < 4; ++edge) {
+    const bool across = edge % 2 == 0;
+    const int along = across ? h : w, most = across ? w : h;
+    std::vector<int> depths;
+    for (int i = 0; i < along; ++i) {
+      int depth = 0;
+      const auto at = [&](int d) {
+        const int in = edge < 2 ? d : most - 1 - d;
+        return across ? outside(in, i) : outside(i, in);
+      };
+      while (depth < most && at(depth)) ++depth;
+      if (depth > 0) depths.push_back(depth);
+    }
+    if (depths.empty() || depths.size() < 0.6 * along) continue;
+    const auto tenth = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 10);
+    std::nth_element(depths.begin(), tenth, depths.end());
+    margins[edge] = std::max(1, *tenth / 3);  // its outer third: the town lights below a skyline lie close to it
+  }
+  return margins;
+}
+
+// `d` px beyond an edge lies so many px within it.
+double back_and_forth(double d, int margin) {
+  const double k = std::fmod(std::max(0.0, d), 2.0 * margin);
+  return k < margin ? k : 2.0 * margin - 1.0 - k;
+}
+
+double beyond_edge(double t, int length, int low_margin, int high_margin) {
+  if (t < -0.5) t = back_and_forth(-1.0 - t, std::min(low_margin, length));
+  else if (t >= length - 0.5) t = length - 1.0 - back_and_forth(t - length, std::min(high_margin, length));
+  return std::clamp(t, 0.0, length - 1.0);
+}
+
 void draw_waves(BackgroundPlan& plan, double bend, Rng rng) {
   const double side = std::min(plan.canvas.width, plan.canvas.height);
   const auto count = static_cast<double>(plan.waves.size());
@@ -50,6 +87,10 @@ Vec2 BackgroundPlan::photo_from_canvas(const Vec2& canvas_point, int photo_width
   Vec2 p = (canvas_point - shift) / scale;
   if (flipped) p.x() = photo_width - 1.0 - p.x();
   return p;
+}
+
+Vec2 BackgroundPlan::beyond(const Vec2& photo, Size size) const {
+  return {beyond_edge(photo.x(), size.width, margins[0], margins[2]), beyond_edge(photo.y(), size.height, margins[1], margins[3])};
 }
 
 std::vector<OptionField> describe(BackgroundOptions& o) {
@@ -92,6 +133,7 @@ BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat,
   // What lies outside is never cut, and a skyline moves sideways only: no enlargement.
   const bool may_scale = outside == 0.0;
   cover(plan, exemplar.photo.color.size(), may_scale);
+  plan.margins = outside_margins(habitat.outside);
   Rng draw = rng.child("background-plan");
   if (plan.mode != BackgroundMode::Keep) plan.flipped = options.mirror && draw.below(2) == 1;
   if (plan.mode == BackgroundMode::Vary) {
