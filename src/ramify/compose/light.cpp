@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "ramify/compose/light_tone.h"
 #include "ramify/compose/light_weave.h"
 #include "ramify/core/parallel.h"
 #include "ramify/image/filter.h"

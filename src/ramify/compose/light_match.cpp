@@ -9,17 +9,16 @@ namespace ramify {
 namespace {
 
 constexpr int kShapeSamples = 11;
-constexpr double kShapeWeight = 4.0;
-constexpr double kBadWeight = 2.0;
+constexpr double kShapeWeight = 1.0;      // copies bend freely; a like course saves them from being stretched
+constexpr double kBadWeight = 4.0;
 constexpr double kReuseWeight = 0.03;
 constexpr double kEarlyWeight = 0.15;   // a child's start likes the middle of a source branch (PICTURES 12.3-10)
 constexpr double kFrameCost = 0.3;      // the disc leaves the photo
 constexpr double kHueWeight = 0.5;
 constexpr double kMisfitWeight = 6.0;   // of widths that differ by more than the strictest choice allows
-constexpr double kBurnt = 0.85;         // level from which a core is burnt out, or a vessel as dark as they come
-constexpr double kLeastGain = 0.6, kMostGain = 1.6;
 constexpr double kNoise = 0.02;
 constexpr double kBanned = 1e3;
+constexpr double kNoTip = 0.3;          // an open tip that the source does not end in: the fade has to make it
 
 // What all sources are compared with.
 struct Goal {
@@ -74,13 +73,6 @@ double level_cost(const Vec3& level, const Vec3& wanted) {
   return brightness * brightness + kHueWeight * hue;
 }
 
-// Evens out brightness along a branch, within what a source can stand.
-double level_gain(const Vec3& level, const Vec3& wanted) {
-  if (wanted.sum() <= 0.0 || level.sum() <= 0.0) return 1.0;
-  const double gain = std::clamp(wanted.mean() / level.mean(), kLeastGain, kMostGain);
-  return level.mean() > kBurnt ? std::max(1.0, gain) : gain;  // dimmed white is no light a flash has
-}
-
 // The part of the cost that needs no shapes.
 double plain_cost(const LightSource& source, const SourceSpot& spot, const Goal& goal, const Vec2& place, double leave_out) {
   const Strand& strand = source.strands[spot.strand];
@@ -92,9 +84,8 @@ double plain_cost(const LightSource& source, const SourceSpot& spot, const Goal&
   return cost;
 }
 
-// Turn and remaining cost: how far the courses differ, and how much of the source is not fit to be copied.
-LightMatch rate(const LightSource& source, int index, const Goal& goal) {
-  const SourceSpot& spot = source.spots[index];
+// How far the courses differ when one is turned onto the other, and how much of the source is not fit to be copied.
+double course_cost(const LightSource& source, const SourceSpot& spot, const Goal& goal) {
   const Strand& strand = source.strands[spot.strand];
   const Vec2 centre = strand.points[spot.sample];
   std::array<Vec2, kShapeSamples> shape;
@@ -107,16 +98,12 @@ LightMatch rate(const LightSource& source, int index, const Goal& goal) {
     shape[k] = p;
     along += p.dot(goal.shape[k]), across += cross(p, goal.shape[k]);
   }
-  LightMatch match;
-  match.spot = index;
-  match.angle = std::atan2(across, along);
-  match.gain = level_gain(strand.level[spot.sample], goal.level);
+  const double angle = std::atan2(across, along);
   Eigen::Matrix2d turn;
-  turn << std::cos(match.angle), -std::sin(match.angle), std::sin(match.angle), std::cos(match.angle);
+  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   double misfit = 0.0;
   for (int k = 0; k < kShapeSamples; ++k) misfit += (turn * shape[k] - goal.shape[k]).squaredNorm();
-  match.cost = kShapeWeight * misfit / (kShapeSamples * goal.s * goal.s) + kBadWeight * bad / kShapeSamples;
-  return match;
+  return kShapeWeight * misfit / (kShapeSamples * goal.s * goal.s) + kBadWeight * bad / kShapeSamples;
 }
 
 // Extra cost of other branches within 0.7 s, beyond what a branch of this width covers itself, and of leaving the photo.
@@ -167,6 +154,25 @@ std::vector<int> fragment_centres(const Strand& target, const LightRules& rules)
   return centres;
 }
 
+std::optional<LightMatch> continue_light(const LightSource& source, const Strand& target, int before_sample,
+                                         const LightMatch& before, int sample, const LightRules& rules, double leave_out) {
+  const Goal goal = make_goal(target, sample, rules);
+  LightMatch match = before;
+  match.place.sample += sample - before_sample;
+  const Strand& strand = source.strands[match.place.strand];
+  const int left = strand.count() - 1 - match.place.sample;
+  if (left < 0 || strand.bad[match.place.sample] || (!goal.tip && left < std::min(goal.s, 1.0 * goal.to_end))) return std::nullopt;
+  while (match.spot + 2 < static_cast<int>(source.spots.size()) && source.spots[match.spot + 2].strand == match.place.strand &&
+         source.spots[match.spot + 2].sample <= match.place.sample) {
+    match.spot += 2;  // each place is listed as it is and mirrored
+  }
+  match.cost = plain_cost(source, match.place, goal, target.points[sample], leave_out) + course_cost(source, match.place, goal) +
+               surround_cost(source, match.place, goal);
+  if (goal.tip && std::abs(left - goal.to_end) > kStrictness[0].tip_offset) match.cost += kNoTip;
+  if (match.cost >= kBanned) return std::nullopt;
+  return match;
+}
+
 std::vector<LightMatch> match_light(const LightSource& source, const Strand& target, int sample,
                                     const std::vector<int>& uses, const LightRules& rules, double leave_out, Rng rng) {
   const Goal goal = make_goal(target, sample, rules);
@@ -181,9 +187,7 @@ std::vector<LightMatch> match_light(const LightSource& source, const Strand& tar
       const double plain = plain_cost(source, spot, goal, target.points[sample], leave_out) + kReuseWeight * uses[i];
       allowed += plain < kBanned;
       if (matches.size() == 3 * wanted && plain >= matches.front().cost) continue;
-      LightMatch match = rate(source, i, goal);
-      match.cost += plain;
-      matches.push_back(match);
+      matches.push_back({spot, i, plain + course_cost(source, spot, goal)});
       std::push_heap(matches.begin(), matches.end(), better);
       if (matches.size() <= 3 * wanted) continue;
       std::pop_heap(matches.begin(), matches.end(), better);
@@ -192,7 +196,7 @@ std::vector<LightMatch> match_light(const LightSource& source, const Strand& tar
     if (allowed >= 6) break;
   }
   for (LightMatch& match : matches) {
-    match.cost += surround_cost(source, source.spots[match.spot], goal);
+    match.cost += surround_cost(source, match.place, goal);
     match.cost += kNoise * std::log(-std::log(std::max(1e-12, rng.uniform())));
   }
   keep_best(matches, wanted);

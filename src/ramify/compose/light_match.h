@@ -3,6 +3,7 @@
 // to the tip, with few foreign branches about.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "ramify/compose/light_source.h"
@@ -10,15 +11,19 @@
 namespace ramify {
 
 struct LightMatch {
-  int spot = kNone;
-  double angle = 0.0;  // rad; the source, mirrored if the spot says so, is turned by this about its place
-  double gain = 1.0;   // brings the source's level near the one the branch has there
+  SourceSpot place;
+  int spot = kNone;    // of the source, at the place or the one before it: where its use is counted
   double cost = 0.0;
 };
 
 // Sample indices of `target` at which fragments are centred: from target.first on, spaced by rules.spacing, the last one
 // at the tip.
 std::vector<int> fragment_centres(const Strand& target, const LightRules& rules);
+
+// The place that lies as far behind `before` on its source as `sample` lies behind before_sample on the target: there the
+// copy goes on without a seam. Empty where the source ends or offers nothing to copy. Cost as by match_light.
+std::optional<LightMatch> continue_light(const LightSource& source, const Strand& target, int before_sample,
+                                         const LightMatch& before, int sample, const LightRules& rules, double leave_out);
 
 // The best rules.candidates matches for the place `sample` of `target`, best first; at least one. uses: how often each
 // spot was taken so far. Sources nearer than leave_out px to the place are banned.

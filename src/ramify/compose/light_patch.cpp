@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ramify/compose/light_tone.h"
 #include "ramify/image/sample.h"
 
 namespace ramify {
@@ -20,20 +21,6 @@ constexpr double kSharpTurn = 1.0;       // rad within one radius s
 double ramp(double x) {
   x = std::clamp(x, 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
-}
-
-// Nearest sample among [from, to): every fourth, then round the best.
-int nearest(const Strand& strand, const Vec2& p, int from, int to) {
-  int best = from;
-  double best_distance = 1e18;
-  const auto look = [&](int t) {
-    const double d = (strand.points[t] - p).squaredNorm();
-    if (d < best_distance) best_distance = d, best = t;
-  };
-  for (int t = from; t < to; t += 4) look(t);
-  const int middle = best;
-  for (int t = std::max(from, middle - 3); t < std::min(to, middle + 4); ++t) look(t);
-  return best;
 }
 
 double end_fade(const Strand& target, const Vec2& p, int t, const LightRules& rules) {
@@ -160,6 +147,7 @@ double flaw_cost(const PatchFrame& frame, const std::vector<float>& foreign, con
 PatchFrame patch_frame(const Strand& target, int sample, const LightRules& rules) {
   PatchFrame frame;
   frame.box = patch_box(target, sample, rules);
+  frame.sample = sample;
   frame.radius = target.radii[sample];
   const double s = frame.box.s, core = 1.3 * frame.radius + 2.0, band = 0.8 * s, flat = std::max(core, 0.45 * band);
   const int reach = static_cast<int>(2.0 * s) + 4;
@@ -172,9 +160,11 @@ PatchFrame patch_frame(const Strand& target, int sample, const LightRules& rules
     for (int x = 0; x < frame.box.size; ++x) {
       const Vec2 p(frame.box.x0 + x, frame.box.y0 + y);
       const bool inside = (p - frame.box.centre).squaredNorm() < s * s;
-      const int t = nearest(target, p, from, to);
+      const StrandPoint at = locate(target, p, from, to);
+      const int t = std::clamp(static_cast<int>(std::lround(at.along)), from, to - 1);
       const double d = (p - target.points[t]).norm();
       const Vec2 across = p - 2.0 * (p - target.points[t]).dot(target.normals[t]) * target.normals[t];
+      frame.points.push_back(at);
       frame.distance.push_back(static_cast<float>(d));
       const double rim = ((p - frame.box.centre).norm() / s - kRimFrom) / (1.0 - kRimFrom);
       frame.window.push_back(static_cast<float>((1.0 - ramp((d - flat) / (band - flat + 1e-6))) * (1.0 - ramp(rim))));
@@ -186,27 +176,33 @@ PatchFrame patch_frame(const Strand& target, int sample, const LightRules& rules
   return frame;
 }
 
-LightPatch cut_patch(const LightSource& source, const LightLayer& layer, const PatchFrame& frame, const LightWarp& warp,
+LightPatch cut_patch(const LightSource& source, const LightLayer& layer, const PatchFrame& frame, const Strand& target,
                      const LightMatch& match, const LightRules& rules, bool fine) {
   LightPatch patch;
-  patch.source = warp.photo_from_canvas(source, match);
+  patch.place = match.place;
+  patch.source = photo_from_strand(source, match.place, target, frame.sample, frame.points);
   patch.value.resize(patch.source.size());
   for (std::size_t i = 0; i < patch.value.size(); ++i) {
     if (fine && frame.window[i] <= 0.0f && frame.distance[i] > frame.box.s) continue;
     const Vec2 p = patch.source[i].cast<double>();
     patch.value[i] = fine ? sample_lanczos3(layer.value, p) : sample_bilinear(layer.value, p);
   }
-  const std::vector<float> foreign = foreign_share(source, frame, patch, source.spots[match.spot].strand + 1);
+  const std::vector<float> foreign = foreign_share(source, frame, patch, match.place.strand + 1);
   remove_plane(frame, foreign, patch);
   const auto floor = static_cast<float>(rules.floor);
   for (Rgb& v : patch.value) v = {std::max(v.r, floor), std::max(v.g, floor), std::max(v.b, floor)};
   patch.cost = match.cost + flaw_cost(frame, foreign, patch);
   mirror_out(frame, foreign, patch);
-  const auto gain = static_cast<float>(match.gain);
+  const ToneGain gains = tone_gain(source.strands[match.place.strand], match.place.sample, target, frame.sample,
+                                   static_cast<int>(2.0 * frame.box.s));
   for (std::size_t i = 0; i < patch.value.size(); ++i) {
-    Rgb& v = patch.value[i];
-    if (gain < 1.0f) v = {std::min(v.r, 1.0f), std::min(v.g, 1.0f), std::min(v.b, 1.0f)};  // dim what is seen, not what burnt out
-    v = gain * frame.fade[i] * v;
+    const Vec3& gain = gains.at(frame.points[i].along);
+    const float fade = frame.fade[i];
+    for (int c = 0; c < 3; ++c) {
+      float& v = patch.value[i][c];
+      if (gain[c] < 1.0 || fade < 1.0f) v = std::min(v, 1.0f);  // dim what is seen, not what burnt out
+      v *= static_cast<float>(gain[c]) * fade;
+    }
   }
   return patch;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ramify/compose/light_match.h"
 #include "ramify/compose/light_warp.h"
 
 namespace ramify {
@@ -13,7 +14,9 @@ namespace ramify {
 // What all sources for one place share: the geometry of the new branch within the box. Row by row.
 struct PatchFrame {
   PatchBox box;
+  int sample = 0;                           // of the new branch, at the centre
   double radius = 1.0;                      // px, of the branch at the centre
+  std::vector<StrandPoint> points;          // as seen from the new branch
   std::vector<float> distance;              // px to the centre line
   std::vector<float> window;                // 0..1, how much of the copy is laid; 0 outside the disc
   std::vector<float> fade;                  // 0..1, open ends and what would stick out behind a parent
@@ -26,10 +29,11 @@ PatchFrame patch_frame(const Strand& target, int sample, const LightRules& rules
 struct LightPatch {
   std::vector<Rgb> value;                   // of the layer, without the window
   std::vector<Eigen::Vector2f> source;      // photo px
+  SourceSpot place;                         // what it is cut from
   double cost = 0.0;                        // match cost + foreign branches in the core + unevenness
 };
 // fine: Lanczos for the picture, bilinear for the choice.
-LightPatch cut_patch(const LightSource& source, const LightLayer& layer, const PatchFrame& frame, const LightWarp& warp,
+LightPatch cut_patch(const LightSource& source, const LightLayer& layer, const PatchFrame& frame, const Strand& target,
                      const LightMatch& match, const LightRules& rules, bool fine);
 
 }  // namespace ramify

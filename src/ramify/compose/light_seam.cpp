@@ -7,6 +7,7 @@
 namespace ramify {
 namespace {
 
+constexpr double kSwitch = 0.15;   // cost of a seam at all
 constexpr double kFeather = 0.6;   // px
 constexpr double kSlope = 0.1;     // cost of a seam's sidestep
 constexpr double kOffCentre = 0.1; // cost of a seam's distance from the middle of the overlap
@@ -28,6 +29,12 @@ std::vector<Shared> shared_core(const PatchFrame& a, const PatchFrame& b) {
     }
   }
   return shared;
+}
+
+// Does b go on where a ends on the source?
+bool continues(const PatchFrame& frame_a, const LightPatch& a, const PatchFrame& frame_b, const LightPatch& b) {
+  return a.place.strand == b.place.strand && a.place.mirrored == b.place.mirrored &&
+         b.place.sample - a.place.sample == frame_b.sample - frame_a.sample;
 }
 
 double mismatch(const std::vector<Shared>& shared, const LightPatch& a, const LightPatch& b, double hue) {
@@ -95,7 +102,9 @@ std::vector<int> choose_chain(const std::vector<PatchFrame>& frames, const std::
       double best = 0.0;
       int best_from = kNone;
       for (std::size_t a = 0; i > 0 && a < patches[i - 1].size(); ++a) {
-        const double c = cost[i - 1][a] + mismatch(shared, patches[i - 1][a], patch, rules.hue);
+        const LightPatch& before = patches[i - 1][a];
+        const double c = cost[i - 1][a] + (continues(frames[i - 1], before, frames[i], patch)
+                                               ? 0.0 : kSwitch + mismatch(shared, before, patch, rules.hue));
         if (best_from == kNone || c < best) best = c, best_from = static_cast<int>(a);
       }
       cost[i].push_back(best + patch.cost);

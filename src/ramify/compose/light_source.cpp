@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "ramify/compose/light_tone.h"
 #include "ramify/core/error.h"
 #include "ramify/core/parallel.h"
 #include "ramify/image/filter.h"
@@ -18,15 +19,16 @@ namespace {
 constexpr double kThin = 3.2;          // px; below, a bright surround shows more than the branch
 constexpr double kBrightHalo = 0.06;   // linear light
 constexpr double kHaloCost = 8.0;
-constexpr double kOddHue = 0.6;         // log ratio
-constexpr double kLeastOfParent = 0.75; // a child is dimmed to its parent's level, but no further than this
-constexpr double kBadTemplate = 0.7;    // cost of a template strand that is not fit to be copied
+constexpr double kCourseSigma = 4.0;    // samples; the line follows the branch, not its finest bends, which are copied as they are
+constexpr double kLeastProminence = 0.4;
+constexpr double kStraight = 0.75;      // chord per arc
+constexpr double kWiderThanUsual = 1.6;
+constexpr int kUsualReach = 40;         // samples
 constexpr float kWhite = 1.0f;          // linear light; for absorbing layers a transmission of 0.37, dark enough
 constexpr int kClean = 4;              // samples on both sides that must be good
 
 double strength(const Rgb& v) { return (v.r + v.g + v.b) / 3.0; }
 
-double mean(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size()); }
 
 // Moves a strand's samples to the centre of gravity of the layer across it; other strands do not pull.
 void recentre(Strand& strand, int own, const LightLayer& layer, const LabelImage& labels) {
@@ -49,7 +51,7 @@ void recentre(Strand& strand, int own, const LightLayer& layer, const LabelImage
     const double most = std::min(3.0, 1.0 + 0.5 * strand.radii[t]);
     shift[t] = sum > 0.0 ? std::clamp(moment / sum, -most, most) : 0.0;
   }
-  shift = smooth(shift, 2.0);
+  shift = smooth(shift, kCourseSigma);
   for (int t = 0; t < strand.count(); ++t) strand.points[t] += strand.normals[t] * shift[t];
   strand.normals = line_normals(strand.points);
 }
@@ -78,50 +80,62 @@ double median_level(const std::vector<Strand>& strands) {
   return all[all.size() / 2];
 }
 
-// Turns by more than a right angle within its own width: a fault of the trace, or nothing that could be laid elsewhere.
-bool folds_back(const Strand& strand, int t) {
-  const int reach = std::max(3, static_cast<int>(std::lround(strand.radii[t])));
+// Turns back within its own width, or is suddenly much wider: a knot of the branch or a fault of the trace, and nothing that
+// could be laid elsewhere.
+bool tangled(const Strand& strand, int t) {
+  const int reach = static_cast<int>(2.0 * strand.radii[t]) + 6;
   const int a = std::max(0, t - reach), b = std::min(strand.count() - 1, t + reach);
-  return strand.normals[a].dot(strand.normals[b]) < 0.0;
+  if ((strand.points[b] - strand.points[a]).norm() < kStraight * (b - a)) return true;
+  std::vector<double> near(strand.radii.begin() + std::max(0, t - kUsualReach), strand.radii.begin() + std::min(strand.count(), t + kUsualReach + 1));
+  const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+  std::nth_element(near.begin(), middle, near.end());
+  return strand.radii[t] > kWiderThanUsual * *middle;
 }
 
-void mark_bad(Strand& strand, double weakest, const Mask& unusable) {
+// Runs beside another strand within its own width for longer than a crossing or a fork does.
+bool doubled(const std::vector<Strand>& strands, int own, int t) {
+  const Vec2& p = strands[own].points[t];
+  const double r = strands[own].radii[t];
+  for (int k = 0; k < static_cast<int>(strands.size()); ++k) {
+    if (k == own) continue;
+    int beside = 0;
+    for (int u = 0; u < strands[k].count(); u += 2) {
+      const double d = (strands[k].points[u] - p).squaredNorm();
+      if (d < r * r) beside += 2;
+      else if (d > 1e4) u += 40;  // samples are 1 px apart
+    }
+    if (beside > 2.0 * r + 1.0) return true;
+  }
+  return false;
+}
+
+// How much stronger the layer is on the branch than in the clear beside it, as a share: little where the plate errs by
+// as much as the branch differs, and what would be copied is the error.
+std::vector<double> prominence(const Strand& strand, const LightLayer& layer, const LabelImage& labels) {
+  std::vector<double> out(strand.points.size());
+  for (int t = 0; t < strand.count(); ++t) {
+    double beside = 0.0;
+    int count = 0;
+    for (const double side : {-1.0, 1.0}) {
+      for (const double gap : {3.0, 5.0, 7.0}) {
+        const Vec2 p = strand.points[t] + side * (1.5 * strand.radii[t] + gap) * strand.normals[t];
+        if (labels.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))) != 0) continue;
+        beside += strength(sample_bilinear(layer.value, p)), ++count;
+      }
+    }
+    const double level = strand.level[t].mean();
+    out[t] = count > 0 && level > 0.0 ? 1.0 - beside / count / level : 1.0;
+  }
+  return smooth(out, 4.0);
+}
+
+void mark_bad(Strand& strand, double weakest, const Mask& unusable, const std::vector<double>& prominence) {
   strand.bad.assign(strand.points.size(), 0);
   for (int t = 0; t < strand.count(); ++t) {
     const Vec2& p = strand.points[t];
     const int x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
     const bool off = x < 0 || y < 0 || (!unusable.empty() && (!unusable.contains(x, y) || unusable(x, y)));
-    strand.bad[t] = off || strand.level[t].mean() < weakest || folds_back(strand, t);
-  }
-}
-
-// Log share of each channel in a level.
-Vec3 hue_of(const Vec3& level) {
-  Vec3 hue;
-  for (int c = 0; c < 3; ++c) hue[c] = std::log((std::max(0.0, level[c]) + 0.02) / (std::max(0.0, level.mean()) + 0.02));
-  return hue;
-}
-
-// A stretch of quite another colour than the rest is not the branch's light but an error of the plate behind it (a bright
-// cloud), and would be seen wherever it is laid.
-void mark_odd_hues(std::vector<Strand>& strands) {
-  std::array<std::vector<double>, 3> all;
-  for (const Strand& s : strands) {
-    for (int t = s.first; t < s.count(); ++t) {
-      if (!s.bad[t]) for (int c = 0; c < 3; ++c) all[c].push_back(hue_of(s.level[t])[c]);
-    }
-  }
-  if (all[0].empty()) return;
-  Vec3 usual;
-  for (int c = 0; c < 3; ++c) {
-    const auto middle = all[c].begin() + static_cast<std::ptrdiff_t>(all[c].size() / 2);
-    std::nth_element(all[c].begin(), middle, all[c].end());
-    usual[c] = *middle;
-  }
-  for (Strand& s : strands) {
-    for (int t = 0; t < s.count(); ++t) {
-      if ((hue_of(s.level[t]) - usual).cwiseAbs().maxCoeff() > kOddHue) s.bad[t] = 1;
-    }
+    strand.bad[t] = off || strand.level[t].mean() < weakest || prominence[t] < kLeastProminence || tangled(strand, t);
   }
 }
 
@@ -151,23 +165,6 @@ std::vector<SourceSpot> find_spots(const std::vector<Strand>& strands, const Lig
   return spots;
 }
 
-// The source strand a target strand takes its level from.
-int template_strand(const Strand& target, const LightSource& source, Rng& rng) {
-  const double r = mean(target.radii), length = target.count() - target.first;
-  int best = kNone;
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < static_cast<int>(source.strands.size()); ++k) {
-    const Strand& s = source.strands[k];
-    const double noise = 0.1 * rng.uniform();
-    const auto good = std::count(s.bad.begin() + s.first, s.bad.end(), 0);
-    const double share_bad = 1.0 - static_cast<double>(good) / (s.count() - s.first);
-    const double cost = std::abs(std::log(mean(s.radii) / r)) +
-                        0.5 * std::abs(std::log((s.count() - s.first) / length)) + kBadTemplate * share_bad + noise;
-    if (cost < best_cost) best_cost = cost, best = k;
-  }
-  return best;
-}
-
 }  // namespace
 
 LightSource make_light_source(std::vector<Strand> strands, const LightLayer& layer, const Mask& shadow,
@@ -180,8 +177,11 @@ LightSource make_light_source(std::vector<Strand> strands, const LightLayer& lay
     strands[k].level = measure_level(strands[k], layer);
   });
   source.weakest = rules.weak * median_level(strands);
-  for (Strand& s : strands) mark_bad(s, source.weakest, unusable);
-  mark_odd_hues(strands);
+  parallel_for(static_cast<int>(strands.size()), [&](int k) {
+    mark_bad(strands[k], source.weakest, unusable, prominence(strands[k], layer, source.labels));
+    for (int t = 0; t < strands[k].count(); ++t) strands[k].bad[t] |= doubled(strands, k, t);
+  });
+  mark_odd_colours(strands);
   source.labels = strand_labels(strands, size, 1.2, 2.0);
   Mask covered = strand_mask(strands, size, 1.35, 2.5);
   for (int y = 0; y < size.height; ++y) {
@@ -201,29 +201,6 @@ LightSource make_light_source(std::vector<Strand> strands, const LightLayer& lay
                                  "check the annotation, or try --composite paste");
   }
   return source;
-}
-
-void assign_levels(std::vector<Strand>& targets, const LightSource& source, Rng rng) {
-  for (int k = 0; k < static_cast<int>(targets.size()); ++k) {
-    Strand& target = targets[k];
-    Rng own = rng.child("level", static_cast<std::uint64_t>(k));
-    const int chosen = template_strand(target, source, own);
-    target.level.assign(target.points.size(), Vec3::Zero());
-    if (chosen == kNone) continue;
-    const Strand& s = source.strands[chosen];
-    const double span = std::max(1, target.count() - 1 - target.first);
-    for (int t = 0; t < target.count(); ++t) {
-      const double u = std::clamp((t - target.first) / span, 0.0, 1.0);
-      target.level[t] = s.level[s.first + static_cast<int>(std::lround(u * (s.count() - 1 - s.first)))];
-    }
-    target.level = smooth(target.level, 6.0);
-    for (Vec3& v : target.level) v *= std::max(1.0, source.weakest / std::max(v.mean(), 1e-6));
-    if (target.parent == kNone) continue;
-    const double most = targets[target.parent].level[target.parent_sample].mean();
-    const double start = target.level[target.first].mean();
-    const double share = std::max(kLeastOfParent, most / std::max(start, 1e-6));
-    if (share < 1.0) for (Vec3& v : target.level) v *= share;
-  }
 }
 
 }  // namespace ramify

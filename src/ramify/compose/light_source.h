@@ -35,9 +35,4 @@ inline constexpr int kForeignLabel = 1 << 20;
 LightSource make_light_source(std::vector<Strand> strands, const LightLayer& layer, const Mask& shadow,
                               const Mask& unusable, const LightRules& rules);
 
-// Gives every target strand a level: each takes the course of the level along the source strand most like it in radius
-// and length, so that brightness runs along a branch as it does in the photo (PICTURES 12.3-9). No child starts brighter
-// than its parent is there.
-void assign_levels(std::vector<Strand>& targets, const LightSource& source, Rng rng);
-
 }  // namespace ramify

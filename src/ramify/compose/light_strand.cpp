@@ -11,11 +11,12 @@
 namespace ramify {
 namespace {
 
-constexpr double kPositionSigma = 2.0;  // px, PICTURES 12.3: the source's and the target's zigzag are smoothed alike
+constexpr double kPositionSigma = 4.0;  // px; the source's and the target's zigzag are smoothed alike, and copies bring finer bends along
 constexpr double kRadiusSigma = 4.0;    // px
 constexpr int kRadiusMedian = 6;        // samples on both sides: a width that jumps up and back is a measuring fault
 constexpr double kFold = 0.45;           // chord / arc below which a stretch folds back on itself
 constexpr double kFrameMargin = 8.0;    // px
+constexpr double kLeastSlender = 3.0;   // a strand is at least so many times longer than its half width
 constexpr int kShortest = 3;            // px a branch must show outside its parent
 
 // Points and radii one px apart along a polyline.
@@ -197,6 +198,8 @@ std::vector<Strand> make_strands(const Skeleton& skeleton) {
       cut_at_rim(strand, strands[strand.parent]);
     }
     if (strand.count() - strand.first < kShortest) continue;
+    // A stump wider than long is a measuring fault: the probe met the parent's banks.
+    for (double& r : strand.radii) r = std::min(r, (strand.count() - strand.first) / kLeastSlender);
     strand.normals = line_normals(strand.points);
     strand_of_branch[b] = static_cast<int>(strands.size());
     strands.push_back(std::move(strand));

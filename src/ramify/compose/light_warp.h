@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bends a copied disc onto a new course: a thin plate through three rows of points (centre line and both banks) that
-// goes over into the rigid placement outside (PICTURES 12.1-5).
+// Where the pixels round a place of a new branch come from: from as far along the source branch and as far across it.
+// So widths and courses agree without a solver, nothing folds, and neighbouring places of one source meet exactly.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "ramify/compose/light_match.h"
 #include "ramify/compose/light_source.h"
 
 namespace ramify {
@@ -19,24 +18,18 @@ struct PatchBox {
 };
 PatchBox patch_box(const Strand& target, int sample, const LightRules& rules);
 
-// The part of a warp that all sources for one place share: displacements at grid nodes as a linear function of the
-// displacements of the control points.
-class LightWarp {
- public:
-  LightWarp(const Strand& target, int sample, const PatchBox& box);
-
-  // Photo position (px) of every pixel of the box, row by row.
-  std::vector<Eigen::Vector2f> photo_from_canvas(const LightSource& source, const LightMatch& match) const;
-
- private:
-  // Does the bend stretch or fold the disc beyond what a photo can stand?
-  bool folds(const Eigen::MatrixXd& nodes, const Eigen::Matrix2d& photo_from_target) const;
-
-  PatchBox box_;
-  std::vector<int> steps_;         // samples of the target's rows, relative to its centre
-  std::vector<Vec2> controls_;     // px, relative to the centre: centre line, one bank, other bank, ring
-  int grid_ = 0;                   // nodes per side of the displacement grid
-  Eigen::MatrixXd nodes_from_controls_;
+// A pixel seen from a strand.
+struct StrandPoint {
+  float along = 0.0f;   // samples from the strand's base, not rounded; beyond the ends measured along the tangent
+  float across = 0.0f;  // px from the centre line, positive on the normals' side
 };
+
+// p as seen from the samples [from, to) of the strand.
+StrandPoint locate(const Strand& strand, const Vec2& p, int from, int to);
+
+// Photo position (px) of every one of `points`, when the target's sample lies on the source's place. Across the branch the
+// source is scaled to the target's width within its edges and only shifted outside of them.
+std::vector<Eigen::Vector2f> photo_from_strand(const LightSource& source, const SourceSpot& place, const Strand& target,
+                                               int sample, const std::vector<StrandPoint>& points);
 
 }  // namespace ramify

@@ -14,6 +14,7 @@
 namespace ramify {
 namespace {
 
+constexpr std::size_t kContinued = 6;  // of a place's matches, which the next place may go on from
 constexpr int kBatch = 48;           // fragments chosen before the counts of use are brought up to date
 constexpr float kVisible = 1e-4f;    // layer strength from which a pixel belongs to a fragment
 
@@ -21,7 +22,6 @@ struct StrandJob {
   int strand = kNone;
   std::vector<int> centres;
   std::vector<PatchFrame> frames;
-  std::vector<LightWarp> warps;
   std::vector<std::vector<LightMatch>> matches;
   std::vector<std::vector<LightPatch>> patches;  // candidates, then the chosen one alone
   std::vector<LightMatch> chosen;
@@ -68,15 +68,25 @@ void for_fragments(std::vector<StrandJob>& jobs, const Body& body) {
   parallel_for(static_cast<int>(all.size()), [&](int k) { body(jobs[all[k].first], all[k].second); });
 }
 
+// Lets every place go on from the best matches of the place before.
+void add_continuations(StrandJob& job, const LightSource& source, const Strand& target, const LightRules& rules, double leave_out) {
+  for (std::size_t i = 1; i < job.matches.size(); ++i) {
+    std::vector<LightMatch> before = job.matches[i - 1];
+    std::stable_sort(before.begin(), before.end(), [](const LightMatch& a, const LightMatch& b) { return a.cost < b.cost; });
+    before.resize(std::min(before.size(), kContinued));
+    for (const LightMatch& match : before) {
+      const auto next = continue_light(source, target, job.centres[i - 1], match, job.centres[i], rules, leave_out);
+      if (next) job.matches[i].push_back(*next);
+    }
+  }
+}
+
 void choose_sources(std::vector<StrandJob>& jobs, const LightSource& source, const LightLayer& layer,
                     const std::vector<Strand>& targets, const std::vector<int>& uses, const LightRules& rules,
                     double leave_out, const Rng& rng, const Monitor& monitor) {
   for (StrandJob& job : jobs) {
     const std::size_t n = job.centres.size();
     job.frames.resize(n), job.matches.resize(n), job.patches.resize(n), job.chosen.resize(n);
-    for (const int t : job.centres) {
-      job.warps.emplace_back(targets[job.strand], t, patch_box(targets[job.strand], t, rules));
-    }
   }
   for_fragments(jobs, [&](StrandJob& job, int i) {
     monitor.check();
@@ -85,8 +95,12 @@ void choose_sources(std::vector<StrandJob>& jobs, const LightSource& source, con
     const Rng own = rng.child("light", (static_cast<std::uint64_t>(job.strand) << 32) + static_cast<std::uint64_t>(t));
     job.frames[i] = patch_frame(target, t, rules);
     job.matches[i] = match_light(source, target, t, uses, rules, leave_out, own);
+  });
+  parallel_for(static_cast<int>(jobs.size()), [&](int j) { add_continuations(jobs[j], source, targets[jobs[j].strand], rules, leave_out); });
+  for_fragments(jobs, [&](StrandJob& job, int i) {
+    monitor.check();
     for (const LightMatch& match : job.matches[i]) {
-      job.patches[i].push_back(cut_patch(source, layer, job.frames[i], job.warps[i], match, rules, false));
+      job.patches[i].push_back(cut_patch(source, layer, job.frames[i], targets[job.strand], match, rules, false));
     }
   });
   parallel_for(static_cast<int>(jobs.size()), [&](int j) {
@@ -96,7 +110,7 @@ void choose_sources(std::vector<StrandJob>& jobs, const LightSource& source, con
     for (std::size_t i = 0; i < chain.size(); ++i) job.chosen[i] = job.matches[i][chain[i]];
   });
   for_fragments(jobs, [&](StrandJob& job, int i) {
-    job.patches[i] = {cut_patch(source, layer, job.frames[i], job.warps[i], job.chosen[i], rules, true)};
+    job.patches[i] = {cut_patch(source, layer, job.frames[i], targets[job.strand], job.chosen[i], rules, true)};
   });
 }
 
