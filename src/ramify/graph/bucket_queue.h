@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Monotone priority queues for label-setting searches. Both hand out batches: all that lies in the lowest range of keys,
+// within which the order is of no consequence because every edge leads out of it. Private to the layer.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace ramify {
+
+template <class Key>
+struct QueueItem {
+  Key key;
+  std::uint32_t node;
+};
+
+// A ring of buckets 2^shift keys wide (Dial 1969; Dinitz 1978: a bucket no wider than the cheapest edge needs no order
+// within). No pushed key may exceed the current one by more than `widest`.
+class BucketQueue {
+ public:
+  using Key = std::uint32_t;
+  using Item = QueueItem<Key>;
+  BucketQueue(Key cheapest, Key widest)
+      : shift_(std::bit_width(cheapest) - 1), mask_(std::bit_ceil((widest >> shift_) + 2u) - 1), ring_(mask_ + 1) {}
+  // How many buckets a queue would need.
+  static std::uint32_t size_for(Key cheapest, Key widest) { return (widest >> (std::bit_width(cheapest) - 1)) + 2u; }
+
+  void push(Key key, std::uint32_t node) {
+    ring_[(key >> shift_) & mask_].push_back({key, node});
+    ++count_;
+  }
+  bool empty() const { return count_ == 0; }
+  // The items of the lowest bucket, which is emptied; valid until the next call.
+  const std::vector<Item>& pop_batch() {
+    batch_.clear();
+    while (ring_[at_ & mask_].empty()) ++at_;
+    batch_.swap(ring_[at_ & mask_]);
+    count_ -= batch_.size();
+    ++at_;
+    return batch_;
+  }
+  // Every label below this one is final once the batch has been worked off.
+  std::uint64_t horizon() const { return static_cast<std::uint64_t>(at_) << shift_; }
+  template <class F>
+  void for_each(F&& f) const {
+    for (const auto& bucket : ring_) {
+      for (const Item& item : bucket) f(item);
+    }
+  }
+
+ private:
+  int shift_;
+  std::uint32_t mask_;
+  std::uint32_t at_ = 0;
+  std::size_t count_ = 0;
+  std::vector<std::vector<Item>> ring_;
+  std::vector<Item> batch_;
+};
+
+// Buckets by the highest bit in which a key differs from the last one handed out (Ahuja, Mehlhorn, Orlin and Tarjan 1990).
+// Keys: unsigned, or the bits of doubles that are not negative. No pushed key may be below the last batch's.
+template <class KeyType>
+class RadixQueue {
+ public:
+  using Key = KeyType;
+  using Item = QueueItem<Key>;
+
+  void push(Key key, std::uint32_t node) {
+    buckets_[std::bit_width(key ^ last_)].push_back({key, node});
+    ++count_;
+  }
+  bool empty() const { return count_ == 0; }
+  const std::vector<Item>& pop_batch() {
+    if (buckets_[0].empty()) refill();
+    batch_.clear();
+    batch_.swap(buckets_[0]);
+    count_ -= batch_.size();
+    return batch_;
+  }
+  Key horizon() const { return last_; }
+  template <class F>
+  void for_each(F&& f) const {
+    for (const auto& bucket : buckets_) {
+      for (const Item& item : bucket) f(item);
+    }
+  }
+
+ private:
+  void refill() {
+    int lowest = 1;
+    while (buckets_[lowest].empty()) ++lowest;
+    std::vector<Item>& from = buckets_[lowest];
+    last_ = std::numeric_limits<Key>::max();
+    for (const Item& item : from) last_ = item.key < last_ ? item.key : last_;
+    for (const Item& item : from) buckets_[std::bit_width(item.key ^ last_)].push_back(item);
+    from.clear();
+  }
+
+  Key last_ = 0;
+  std::size_t count_ = 0;
+  std::array<std::vector<Item>, std::numeric_limits<Key>::digits + 1> buckets_;
+  std::vector<Item> batch_;
+};
+
+}  // namespace ramify

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a search knows of a node under each metric, and how an edge extends it. Keys order nodes; labels of equal keys may
+// differ (Mix). Private to the layer.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "ramify/graph/search.h"
+
+namespace ramify {
+
+inline constexpr std::uint32_t kFar = std::numeric_limits<std::uint32_t>::max();
+// No label beyond this is extended, so that no sum of ticks overflows (edges stay below 2^29 ticks).
+inline constexpr std::uint32_t kTickCeiling = kFar - (1u << 30);
+
+struct SumLabels {
+  std::uint32_t* sum;
+  using Label = std::uint32_t;
+  std::uint32_t key(std::uint32_t node) const { return sum[node]; }
+  static std::uint32_t key_of(Label label) { return label; }
+  Label extended(std::uint32_t node, const Edge& edge) const { return sum[node] + edge.full; }
+  void set(std::uint32_t node, Label label) { sum[node] = label; }
+  void clear(std::uint32_t node) { sum[node] = kFar; }
+  bool overflows(std::uint32_t node) const { return sum[node] > kTickCeiling; }
+};
+
+// Partial: peak first, then sum. Forbidden nodes have peak and sum 0, so that nothing is offered to them.
+struct PartialLabels {
+  std::uint32_t* sum;
+  std::uint32_t* peak;
+  struct Label {
+    std::uint32_t sum, peak;
+  };
+  static std::uint64_t key_of(Label label) { return (static_cast<std::uint64_t>(label.peak) << 32) | label.sum; }
+  std::uint64_t key(std::uint32_t node) const { return key_of({sum[node], peak[node]}); }
+  Label extended(std::uint32_t node, const Edge& edge) const {
+    return {sum[node] + edge.full, peak[node] > edge.plain ? peak[node] : edge.plain};
+  }
+  void set(std::uint32_t node, Label label) {
+    sum[node] = label.sum;
+    peak[node] = label.peak;
+  }
+  void clear(std::uint32_t node) { sum[node] = peak[node] = kFar; }
+  bool overflows(std::uint32_t node) const { return sum[node] > kTickCeiling; }
+};
+
+// Mix: ratio * peak + sum, which orders as peak_share * peak + sum_share * sum does.
+struct MixLabels : PartialLabels {
+  double ratio;
+  static constexpr std::uint64_t kFarKey = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t key_of(Label label) const {
+    return label.sum == kFar ? kFarKey : static_cast<std::uint64_t>(ratio * label.peak) + label.sum;
+  }
+  std::uint64_t key(std::uint32_t node) const { return key_of({sum[node], peak[node]}); }
+};
+
+// Power: the sum of (edge / unit)^p. Positive doubles order as their bits do.
+struct PowerLabels {
+  double* sum;
+  double power;
+  double unit_per_tick;
+  using Label = double;
+  static std::uint64_t key_of(Label label) { return std::bit_cast<std::uint64_t>(label); }
+  std::uint64_t key(std::uint32_t node) const { return key_of(sum[node]); }
+  Label extended(std::uint32_t node, const Edge& edge) const { return sum[node] + std::pow(edge.full * unit_per_tick, power); }
+  void set(std::uint32_t node, Label label) { sum[node] = label; }
+  void clear(std::uint32_t node) { sum[node] = std::numeric_limits<double>::infinity(); }
+  static bool overflows(std::uint32_t) { return false; }
+};
+
+}  // namespace ramify

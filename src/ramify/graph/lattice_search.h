@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a lattice to the view of its connectivity and weights. Private to the layer.
+#pragma once
+
+#include "ramify/graph/run_search.h"
+
+namespace ramify {
+
+struct WeightRange {
+  double least = 0.0, most = 0.0, mean = 0.0;  // over allowed nodes; 0 when there are none
+};
+WeightRange weight_range(const Lattice& lattice);
+
+double dearest_edge(const Lattice& lattice, const WeightRange& weights);
+
+// Searches on from what the plan holds; task.bounds are set here. One definition for each number of steps.
+template <int kSteps>
+SearchEnd search_lattice(const Lattice& lattice, Plan& plan, SearchTask task, const WeightRange& weights, const Monitor& monitor);
+
+}  // namespace ramify

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A point graph as the search sees it. Private to the layer.
+#pragma once
+
+#include "ramify/graph/lattice_hash.h"
+#include "ramify/graph/plan.h"
+#include "ramify/graph/search.h"
+
+namespace ramify {
+
+class PointView {
+ public:
+  using Link = std::int32_t;  // the parent
+  static constexpr Link kSourceLink = -kSource, kForbiddenLink = -kForbidden, kUnreachedLink = -kUnreached;
+
+  PointView(const PointGraph& graph, double ticks_per_unit) : graph_(graph), ticks_(ticks_per_unit) {}
+
+  template <class F>
+  void visit(std::uint32_t node, F&& f) const {
+    for (std::int32_t i = graph_.first[node]; i < graph_.first[node + 1]; ++i) {
+      f(static_cast<std::uint32_t>(graph_.neighbor[i]), static_cast<Link>(node), [&] {
+        const std::uint32_t ticks = cost_ticks(graph_.cost[i]);
+        return Edge{ticks, ticks};
+      });
+    }
+  }
+  std::uint32_t cost_ticks(float cost) const {
+    const std::uint32_t ticks = static_cast<std::uint32_t>(cost * ticks_ + 0.5);
+    return ticks > 1 ? ticks : 1;
+  }
+  std::uint32_t parent(std::uint32_t, Link link) const { return static_cast<std::uint32_t>(link); }
+  std::uint32_t start_ticks(std::uint32_t) const { return 0; }
+  std::uint64_t unique_key(const Edge& e, std::uint32_t a, std::uint32_t b, Link) const {
+    return (static_cast<std::uint64_t>(e.plain) << 32) | edge_hash(0, a, b);
+  }
+
+ private:
+  const PointGraph& graph_;
+  double ticks_;
+};
+
+}  // namespace ramify

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The label-setting search all plans run on (Dijkstra 1959). It is put together from
+//   a View, which walks a node's edges:      view.visit(node, f) calls f(neighbour, link, edge) with edge() computed when
+//                                            asked for, and view.parent(node, link) reads a link;
+//   Labels, what is known of a node:         key(node), offer(node, from, edge, limit);
+//   a queue of bucket_queue.h; a Stop that may end it early.
+// Private to the layer.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "ramify/core/monitor.h"
+#include "ramify/graph/bucket_queue.h"
+
+namespace ramify {
+
+// An edge in ticks: with the length of diagonals for sums, and without it for peaks.
+struct Edge {
+  std::uint32_t full;
+  std::uint32_t plain;
+};
+
+// The cheapest and the dearest edge there can be, in ticks.
+struct EdgeBounds {
+  std::uint32_t cheapest = 1, dearest = 1;
+};
+
+// Ends when all endpoints have their final label; never when there are none.
+struct StopAtEndpoints {
+  std::span<const int> endpoints;
+  std::size_t next = 0;
+  void settled(std::uint32_t) {}
+  template <class Labels>
+  bool done(const Labels& labels, std::uint64_t horizon) {
+    while (next < endpoints.size() && labels.key(endpoints[next]) < horizon) ++next;
+    return next == endpoints.size() && !endpoints.empty();
+  }
+};
+
+enum class SearchEnd { Exhausted, Stopped, Overflow };
+
+// `links` holds one link a node, `limit` is the largest key a node may get, `ceiling` the largest a settled node may have
+// so that no sum overflows. Of neighbours that offer the same label the one settled first (lower key, then lower index)
+// becomes the parent, whatever the order in which the queue handed them out.
+template <class View, class Labels, class Queue, class Stop>
+SearchEnd search(const View& view, Labels& labels, typename View::Link* links, Queue& queue, Stop& stop,
+                 typename Queue::Key limit, const Monitor& monitor) {
+  using Key = typename Queue::Key;
+  using Link = typename View::Link;
+  std::size_t since_check = 0;
+  while (!queue.empty()) {
+    const auto& batch = queue.pop_batch();
+    for (const auto& item : batch) {
+      const std::uint32_t node = item.node;
+      const Key key = item.key;
+      if (labels.key(node) != key) continue;  // a better label came later
+      if (labels.overflows(node)) return SearchEnd::Overflow;
+      stop.settled(node);
+      view.visit(node, [&](std::uint32_t to, Link link, auto&& edge) {
+        const Key old = labels.key(to);
+        if (old <= key) return;  // settled before this node
+        const auto label = labels.extended(node, edge());
+        const Key offered = labels.key_of(label);
+        if (offered < old) {
+          if (offered > limit) return;
+          labels.set(to, label);
+          links[to] = link;
+          queue.push(offered, to);
+        } else if (offered == old) {
+          const std::uint32_t rival = view.parent(to, links[to]);
+          const Key rival_key = labels.key(rival);
+          if (key < rival_key || (key == rival_key && node < rival)) {
+            labels.set(to, label);
+            links[to] = link;
+          }
+        }
+      });
+    }
+    since_check += batch.size();
+    if (since_check > 20000) {
+      monitor.check();
+      since_check = 0;
+    }
+    if (stop.done(labels, queue.horizon())) return SearchEnd::Stopped;
+  }
+  return SearchEnd::Exhausted;
+}
+
+}  // namespace ramify

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The definition of search_lattice, instantiated by search_plane.cpp and search_volume.cpp: the views of all kinds of
+// weights times the metrics are much code. Private to the layer.
+#pragma once
+
+#include "ramify/graph/lattice_search.h"
+#include "ramify/graph/lattice_view.h"
+
+namespace ramify {
+
+template <int kSteps>
+SearchEnd search_lattice(const Lattice& lattice, Plan& plan, SearchTask task, const WeightRange& weights, const Monitor& monitor) {
+  const double half_ticks = plan.ticks_per_unit / 2.0;
+  const auto run = [&](const auto& ticks, std::uint32_t least_half, std::uint32_t most_half) {
+    const LatticeView<kSteps, std::decay_t<decltype(ticks)>> view(lattice, ticks, plan.step.data());
+    task.bounds = view.bounds(least_half, most_half);
+    return run_search(view, plan, plan.step.data(), task, monitor);
+  };
+  if (const auto* whole = std::get_if<WholeWeights>(&lattice.weights)) {
+    const WholeTicks ticks{whole->data(), static_cast<std::uint32_t>(half_ticks)};
+    return run(ticks, ticks.half_of(weights.least), ticks.half_of(weights.most));
+  }
+  if (const auto* real = std::get_if<RealWeights>(&lattice.weights)) {
+    const RealTicks ticks{real->data(), static_cast<float>(half_ticks)};
+    return run(ticks, ticks.half_of(weights.least), ticks.half_of(weights.most));
+  }
+  const HashedWeights& hashed = std::get<HashedWeights>(lattice.weights);
+  const auto base = static_cast<std::uint32_t>(std::max(1.0, std::round(hashed.base * half_ticks)));
+  const auto spread = static_cast<std::uint32_t>(hashed.spread * half_ticks);
+  if (hashed.per_edge) return run(HashedTicks<true>{hashed.seed, base, spread}, base, base + spread);
+  return run(HashedTicks<false>{hashed.seed, base, spread}, base, base + spread);
+}
+
+}  // namespace ramify

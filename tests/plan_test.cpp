@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/graph/plan.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "ramify/core/parallel.h"
+#include "ramify/core/random.h"
+#include "ramify/graph/path_forest.h"
+
+using namespace ramify;
+
+namespace {
+
+RealWeights random_weights(int count, Rng& rng) {
+  RealWeights out(static_cast<std::size_t>(count));
+  for (float& w : out) w = static_cast<float>(rng.uniform(0.5, 12.0));
+  return out;
+}
+
+// A lattice with weights of any kind, now and then with forbidden nodes and dear directions.
+Lattice random_lattice(Rng& rng, Connectivity connectivity) {
+  Lattice lattice;
+  lattice.connectivity = connectivity;
+  const bool plane = connectivity == Connectivity::Plane4 || connectivity == Connectivity::Plane8;
+  lattice.width = 5 + rng.below(plane ? 30 : 8);
+  lattice.height = 5 + rng.below(plane ? 30 : 8);
+  lattice.depth = plane ? 1 : 3 + rng.below(6);
+  lattice.edge_cost = rng.below(2) ? EdgeCost::Mean : EdgeCost::Target;
+  lattice.diagonal = rng.below(2) ? DiagonalLength::Geometric : DiagonalLength::None;
+  switch (rng.below(4)) {
+    case 0: lattice.weights = random_weights(lattice.count(), rng); break;
+    case 1: {
+      WholeWeights w(static_cast<std::size_t>(lattice.count()));
+      for (auto& v : w) v = static_cast<std::uint16_t>(1 + rng.below(4));  // many ties
+      lattice.weights = w;
+      break;
+    }
+    default: lattice.weights = HashedWeights{rng.next(), 1.0, 10.0, rng.below(2) == 0};
+  }
+  if (rng.below(2)) {
+    lattice.allowed.assign(static_cast<std::size_t>(lattice.count()), 1);
+    for (auto& a : lattice.allowed) a = rng.uniform() < 0.85;
+  }
+  if (rng.below(4) == 0) {
+    lattice.direction_factor.assign(lattice_steps(connectivity).size(), 1.0);
+    lattice.direction_factor[3] = 4.0;
+  }
+  return lattice;
+}
+
+int random_node(const Lattice& lattice, Rng& rng) {
+  int node = rng.below(lattice.count());
+  while (!is_allowed(lattice, node)) node = rng.below(lattice.count());
+  return node;
+}
+
+constexpr Connectivity kAll[] = {Connectivity::Plane4, Connectivity::Plane8, Connectivity::Volume6, Connectivity::Volume26};
+
+// The midpoints of drawn edges in half steps: two edges of a lattice meet between nodes exactly where these coincide.
+int crossings(const PathForest& forest, const Lattice& lattice) {
+  std::set<std::array<int, 3>> middles;
+  int edges = 0;
+  for (std::size_t i = 0; i < forest.nodes.size(); ++i) {
+    if (forest.parents[i] == kNone) continue;
+    const auto a = node_place(lattice, forest.nodes[i]), b = node_place(lattice, forest.nodes[forest.parents[i]]);
+    middles.insert({a[0] + b[0], a[1] + b[1], a[2] + b[2]});
+    ++edges;
+  }
+  return edges - static_cast<int>(middles.size());
+}
+
+}  // namespace
+
+TEST_CASE("the sum of the edges on every path is the cost of its end") {
+  Rng rng(1);
+  for (int trial = 0; trial < 40; ++trial) {
+    const Lattice lattice = random_lattice(rng, kAll[trial % 4]);
+    const Metric metric = trial % 3 == 0 ? Metric::Sum : trial % 3 == 1 ? Metric::Partial : Metric::Full;
+    PlanOptions options;
+    options.metric.metric = metric;
+    const Plan plan = plan_paths(lattice, std::vector<int>{random_node(lattice, rng)}, options);
+    const auto steps = lattice_steps(lattice.connectivity);
+    for (int node = 0; node < lattice.count(); ++node) {
+      if (!is_reached(plan, node) || plan.step[node] == kSource) continue;
+      const int parent = path_parent(plan, lattice, node);
+      REQUIRE(is_allowed(lattice, parent));
+      CHECK(path_sum(plan, node) == Approx(path_sum(plan, parent) + edge_cost(lattice, parent, plan.step[node] ^ 1)).epsilon(1e-5));
+    }
+    CHECK(steps.size() == (trial % 4 == 0 ? 4u : trial % 4 == 1 ? 8u : trial % 4 == 2 ? 6u : 26u));
+  }
+}
+
+TEST_CASE("no node could be reached cheaper through a neighbour") {
+  Rng rng(2);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Lattice lattice = random_lattice(rng, kAll[trial % 4]);
+    PlanOptions options;
+    options.metric.metric = trial % 2 ? Metric::Sum : Metric::Power;
+    options.metric.power = 3.0;
+    const double p = trial % 2 ? 1.0 : 3.0;
+    const Plan plan = plan_paths(lattice, std::vector<int>{random_node(lattice, rng), random_node(lattice, rng)}, options);
+    const auto steps = lattice_steps(lattice.connectivity);
+    for (int node = 0; node < lattice.count(); ++node) {
+      if (!is_reached(plan, node)) continue;
+      const auto [x, y, z] = node_place(lattice, node);
+      for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
+        if (!lattice.contains(x + steps[k].dx, y + steps[k].dy, z + steps[k].dz)) continue;
+        const int to = lattice.node(x + steps[k].dx, y + steps[k].dy, z + steps[k].dz);
+        if (!is_allowed(lattice, to)) continue;
+        REQUIRE(is_reached(plan, to));
+        const double through = std::pow(std::pow(path_cost(plan, node), p) + std::pow(edge_cost(lattice, node, k), p), 1.0 / p);
+        CHECK(path_cost(plan, to) <= through * (1.0 + 1e-5));
+      }
+    }
+  }
+}
+
+TEST_CASE("more sources touch only what improves and give what planning anew gives") {
+  Rng rng(3);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Lattice lattice = random_lattice(rng, kAll[trial % 4]);
+    PlanOptions options;
+    options.metric.metric = static_cast<Metric>(trial % 5);
+    std::vector<int> sources{random_node(lattice, rng)};
+    Plan plan = plan_paths(lattice, sources, options);
+    for (int round = 0; round < 3; ++round) {
+      std::vector<int> more;
+      for (int i = 0; i < 4; ++i) more.push_back(random_node(lattice, rng));
+      sources.insert(sources.end(), more.begin(), more.end());
+      plan = reseeded(std::move(plan), lattice, more, std::numeric_limits<double>::infinity());
+      const Plan anew = plan_paths(lattice, sources, options);
+      CHECK(plan.sum == anew.sum);
+      CHECK(plan.peak == anew.peak);
+      CHECK(plan.power_sum == anew.power_sum);
+      CHECK(plan.step == anew.step);
+    }
+  }
+}
+
+TEST_CASE("truncation and early stop keep what the whole plan says") {
+  Rng rng(4);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Lattice lattice = random_lattice(rng, kAll[trial % 4]);
+    PlanOptions options;
+    options.metric.metric = static_cast<Metric>(trial % 5);
+    const std::vector<int> source{random_node(lattice, rng)};
+    const Plan whole = plan_paths(lattice, source, options);
+    const std::vector<int> ends{random_node(lattice, rng), random_node(lattice, rng)};
+    PlanOptions early = options;
+    early.endpoints = ends;
+    const Plan stopped = plan_paths(lattice, source, early);
+    for (const int end : ends) CHECK(path_cost(stopped, end) == path_cost(whole, end));
+    int missing = 0;
+    for (int node = 0; node < lattice.count(); ++node) {
+      if (is_reached(stopped, node)) CHECK(path_cost(stopped, node) == path_cost(whole, node));
+      missing += is_reached(whole, node) && !is_reached(stopped, node);
+    }
+    CHECK(stopped.stopped_early >= (missing > 0));
+    if (stopped.stopped_early) CHECK_THROWS_AS(reseeded(stopped, lattice, ends, 1.0), std::invalid_argument);
+
+    PlanOptions bounded = options;
+    bounded.max_cost = 0.5 * path_cost(whole, ends[0]);
+    if (!std::isfinite(bounded.max_cost)) continue;
+    const Plan near = plan_paths(lattice, source, bounded);
+    for (int node = 0; node < lattice.count(); ++node) {
+      const double cost = path_cost(whole, node);
+      if (std::abs(cost - bounded.max_cost) < 1e-4 * cost || node == source[0]) continue;
+      CHECK(is_reached(near, node) == (is_reached(whole, node) && cost < bounded.max_cost));
+    }
+  }
+}
+
+TEST_CASE("every plan is the same for any number of threads and keeps its ties") {
+  Rng rng(5);
+  const Lattice lattice = random_lattice(rng, Connectivity::Plane8);
+  const std::vector<int> source{random_node(lattice, rng)};
+  set_thread_count(1);
+  const Plan one = plan_paths(lattice, source);
+  set_thread_count(3);
+  const Plan three = plan_paths(lattice, source);
+  set_thread_count(0);
+  CHECK(one.step == three.step);
+  // On an even lattice all ties: the parent is the neighbour with the lowest cost, then index.
+  Lattice even;
+  even.width = even.height = 5;
+  even.connectivity = Connectivity::Plane4;
+  even.weights = WholeWeights(25, 1);
+  const Plan plan = plan_paths(even, std::vector<int>{0});
+  CHECK(path_parent(plan, even, even.node(3, 3)) == even.node(3, 2));
+  CHECK(path_cost(plan, even.node(3, 3)) == 6.0);
+}
+
+TEST_CASE("no two drawn paths cross in 1000 random plans") {
+  Rng rng(6);
+  int aside = 0, blocked = 0, drawn = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Lattice lattice = random_lattice(rng, trial % 5 == 0 ? Connectivity::Volume26 : Connectivity::Plane8);
+    PlanOptions options;
+    options.metric.metric = static_cast<Metric>(trial % 5);
+    const int sources = 1 + rng.below(3);
+    std::vector<int> from, generator(static_cast<std::size_t>(lattice.count()), kNone);
+    for (int s = 0; s < sources; ++s) {
+      from.push_back(random_node(lattice, rng));
+      generator[from.back()] = s;
+    }
+    PathForest forest = make_path_forest(lattice.count(), trial % 2 ? generator : std::vector<int>());
+    Plan plan = plan_paths(lattice, from, options);
+    for (int round = 0; round < 2; ++round) {
+      for (int i = 0; i < 25; ++i) {
+        const AddedPath path = add_path(forest, plan, lattice, random_node(lattice, rng));
+        aside += path.aside;
+        blocked += path.blocked;
+        drawn += path.count > 0;
+      }
+      plan = reseeded(std::move(plan), lattice, forest.nodes, std::numeric_limits<double>::infinity());
+    }
+    REQUIRE(crossings(forest, lattice) == 0);
+    for (std::size_t i = 0; i < forest.nodes.size(); ++i) REQUIRE(forest.parents[i] < static_cast<int>(i));
+    if (trial % 2 == 0) continue;
+    for (std::size_t i = 0; i < forest.nodes.size(); ++i) {  // trees of different generators stay apart
+      int root = static_cast<int>(i);
+      while (forest.parents[root] != kNone) root = forest.parents[root];
+      REQUIRE(generator[forest.nodes[root]] != kNone);
+    }
+  }
+  CHECK(aside > 100);  // else the test says nothing about crossings
+  CHECK(blocked > 0);
+  CHECK(drawn > 10000);
+}
+
+TEST_CASE("polylines start where a path joins and end at its endpoint") {
+  Lattice lattice;
+  lattice.width = lattice.height = 9;
+  lattice.connectivity = Connectivity::Plane4;
+  lattice.weights = WholeWeights(81, 1);
+  const Plan plan = plan_paths(lattice, std::vector<int>{lattice.node(0, 0)});
+  PathForest forest = make_path_forest(lattice.count());
+  add_path(forest, plan, lattice, lattice.node(8, 0));
+  add_path(forest, plan, lattice, lattice.node(4, 0));  // drawn already
+  add_path(forest, plan, lattice, lattice.node(8, 3));
+  const auto lines = forest_polylines(forest, lattice);
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0].front() == Vec3(0, 0, 0));
+  CHECK(lines[0].back() == Vec3(8, 0, 0));
+  CHECK(lines[0].size() == 9);
+  CHECK(lines[1].front() == Vec3(8, 0, 0));
+  CHECK(lines[1].back() == Vec3(8, 3, 0));
+}
+
+TEST_CASE("what a plan cannot use is said in words") {
+  Lattice lattice;
+  CHECK_THROWS_WITH(plan_paths(lattice, std::vector<int>{0}), Catch::Contains("at least one node"));
+  lattice.width = lattice.height = 4;
+  CHECK_THROWS_WITH(plan_paths(lattice, std::vector<int>{}), Catch::Contains("at least one source"));
+  CHECK_THROWS_WITH(plan_paths(lattice, std::vector<int>{16}), Catch::Contains("source 16"));
+  lattice.weights = RealWeights(15, 1.0f);
+  CHECK_THROWS_WITH(plan_paths(lattice, std::vector<int>{0}), Catch::Contains("16 nodes, but 15 weights"));
+  lattice.weights = RealWeights(16, 1.0f);
+  std::get<RealWeights>(lattice.weights)[3] = -1.0f;
+  CHECK_THROWS_WITH(plan_paths(lattice, std::vector<int>{3}), Catch::Contains("forbidden"));
+  lattice.depth = 2;
+  CHECK_THROWS_WITH(plan_paths(lattice, std::vector<int>{0}), Catch::Contains("6 or 26"));
+  CHECK_THROWS_AS(node_at(lattice, Vec3(4.0, 0, 0)), InputError);
+}
