@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/paint/paint.h"
+
+#include <algorithm>
+#include <set>
+
+#include "ramify/paint/palette.h"
+#include "ramify/paint/styles.h"
+
+namespace ramify {
+namespace {
+
+constexpr double kRipening = 0.35;  // share of the whole way over which a branch reaches its width
+
+std::string own_palette(PaintStyle style) {
+  switch (style) {
+    case PaintStyle::Ink: return "black";
+    case PaintStyle::Vine: return "spring";
+    case PaintStyle::Lightning: return "electric";
+  }
+  return "black";
+}
+
+}  // namespace
+
+std::vector<OptionField> describe(PaintOptions& o) {
+  return {choice("style", o.style, {"ink", "vine", "lightning"}, "How the skeleton is drawn."),
+          text("palette", o.palette, "A palette's name or colours such as #1d3557,#a8dadc, from the trunk outwards; vine: stem, then leaves; "
+               "lightning: core to haze; empty = the style's own."),
+          text("background", o.background, "A colour such as #ffffff, or none = transparent."),
+          number("width", o.stroke.width, 0.05, 50, "", "Factor on all widths."),
+          number("taper", o.stroke.taper, 0, 1, "", "0 = blunt tips, 1 = long fine points."),
+          number("smooth", o.stroke.smoothing, 0, 100, "px", "Smooths the lines, standard deviation along them."),
+          number("flow", o.stroke.flow, 0, 1, "", "0 = side branches start where the skeleton says, 1 = they leave along their parent."),
+          number("tolerance", o.tolerance, 0.01, 10, "px", "How far curves may lie from the outline; larger = fewer nodes."),
+          choice("leaf", o.leaf, {"ovate", "lance", "heart", "ivy", "oak", "round"}, "Shape of the leaves."),
+          number("leaf-size", o.foliage.size, 0, 10000, "px", "Length of a leaf; 0 = from the space between branches."),
+          number("leaf-density", o.foliage.density, 0, 5, "", "How close leaves stand; 0 = none."),
+          choice("phyllotaxis", o.foliage.phyllotaxis, {"alternate", "spiral", "opposite"}, "How leaves follow each other along a branch."),
+          number("flowers", o.foliage.flowers, 0, 1, "", "Share of the tips that bear a flower."),
+          text("flower-color", o.flower_color, "Colour of the petals."),
+          number("tendrils", o.foliage.tendrils, 0, 1, "", "Share of the tips that end in a tendril."),
+          number("glow", o.glow, 0, 5, "", "Strength of the light around lightning.")};
+}
+
+bool has_effect(PaintStyle style, const std::string& option) {
+  static const std::set<std::string> vine{"leaf", "leaf-size", "leaf-density", "phyllotaxis", "flowers", "flower-color", "tendrils"};
+  if (vine.count(option) > 0) return style == PaintStyle::Vine;
+  return option != "glow" || style == PaintStyle::Lightning;
+}
+
+PaintScene prepare_painting(const Skeleton& skeleton, const PaintOptions& options, const Rng& rng, const Monitor& monitor) {
+  if (skeleton.empty()) throw InputError("", "the skeleton has no nodes: there is nothing to paint");
+  PaintScene scene;
+  scene.size = skeleton.size;
+  scene.options = options;
+  scene.colors = parse_palette("palette", options.palette.empty() ? own_palette(options.style) : options.palette);
+  if (options.background != "none") scene.background = parse_color("background", options.background);
+  parse_color("flower-color", options.flower_color);
+  monitor.check();
+  scene.strokes = make_strokes(skeleton, options.stroke);
+  monitor.report(0.5);
+  scene.reach = growth_reach(scene.strokes);
+  if (options.style == PaintStyle::Vine) scene.foliage = place_foliage(scene.strokes, scene.size, options.foliage, rng.child("foliage"));
+  for (const Stroke& tendril : scene.foliage.tendrils) scene.reach = std::max(scene.reach, tendril.births.back());
+  return scene;
+}
+
+Drawing draw_painting(const PaintScene& scene, double growth, const Monitor& monitor) {
+  Drawing drawing;
+  drawing.size = scene.size;
+  drawing.background = scene.background;
+  // The front runs on beyond the last tip until the tips have ripened too.
+  const double late = std::max(kRipening * scene.reach, 5.0 * scene.foliage.leaf_size);
+  const bool whole = growth >= 1.0;
+  const double front = whole ? 1e30 : growth * (scene.reach + late);
+  const std::vector<Stroke> strokes = whole ? scene.strokes : grown_strokes(scene.strokes, front, kRipening * scene.reach);
+  switch (scene.options.style) {
+    case PaintStyle::Ink: drawing.layers = ink_layers(scene, strokes, monitor); break;
+    case PaintStyle::Vine: drawing.layers = vine_layers(scene, strokes, front, monitor); break;
+    case PaintStyle::Lightning: drawing.layers = lightning_layers(scene, strokes, monitor); break;
+  }
+  return drawing;
+}
+
+}  // namespace ramify

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A skeleton drawn in a style: ink, vine, lightning. Two steps, so that growing pictures are cheap: the scene holds
+// what does not change while it grows, a drawing is the scene at one moment.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ramify/core/monitor.h"
+#include "ramify/core/options.h"
+#include "ramify/core/random.h"
+#include "ramify/paint/drawing.h"
+#include "ramify/paint/foliage.h"
+#include "ramify/paint/stroke.h"
+
+namespace ramify {
+
+enum class PaintStyle { Ink, Vine, Lightning };
+
+struct PaintOptions {
+  PaintStyle style = PaintStyle::Ink;
+  std::string palette;              // a name or colours (palette.h); empty = the style's own
+  std::string background = "none";  // a colour, or none = transparent
+  StrokeOptions stroke;
+  double tolerance = 0.12;          // px, how far curves may lie from the outline
+  LeafShape leaf = LeafShape::Ovate;
+  FoliageOptions foliage;
+  std::string flower_color = "#e58aa5";
+  double glow = 1.0;                // strength of the light around lightning
+};
+std::vector<OptionField> describe(PaintOptions& options);
+
+// Whether an option changes what a style draws.
+bool has_effect(PaintStyle style, const std::string& option);
+
+struct PaintScene {
+  Size size;
+  PaintOptions options;
+  std::vector<Rgb> colors;
+  std::optional<Rgb> background;
+  std::vector<Stroke> strokes;
+  Foliage foliage;    // vine only
+  double reach = 0.0; // px, longest way from a root
+};
+
+// Throws OptionError for palettes and colours that cannot be read, InputError for a skeleton without nodes.
+PaintScene prepare_painting(const Skeleton& skeleton, const PaintOptions& options, const Rng& rng, const Monitor& monitor);
+
+// The drawing when it has grown to `growth` 0..1 of itself; at 1 it is finished.
+Drawing draw_painting(const PaintScene& scene, double growth, const Monitor& monitor);
+
+// Settings that go well together, by name.
+struct PaintPreset {
+  std::string name;
+  std::string about;  // one line
+  std::vector<std::pair<std::string, std::string>> options;
+};
+const std::vector<PaintPreset>& paint_presets();
+
+}  // namespace ramify
