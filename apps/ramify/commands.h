@@ -21,6 +21,9 @@ void add_grow(CLI::App& root, Chosen& chosen);
 void add_render(CLI::App& root, Chosen& chosen);
 void add_replay(CLI::App& root, Chosen& chosen);
 
+// commands_paint.cpp
+void add_paint(CLI::App& root, Chosen& chosen);
+
 // commands_annotate.cpp
 void add_trace(CLI::App& root, Chosen& chosen);
 void add_rectify(CLI::App& root, Chosen& chosen);

@@ -20,12 +20,6 @@
 namespace ramify::app {
 namespace {
 
-constexpr char kAnnotationFormat[] = "\"ramify-annotation\"";
-
-bool is_annotation_file(const std::string& path) {
-  return is_json_file(path) && read_file(path, kSkeletonFileLimit).find(kAnnotationFormat) != std::string::npos;
-}
-
 bool is_picture_file(const std::string& path) {
   const std::string text = read_file(path, std::size_t{1} << 31);
   return text.find('\0') != std::string::npos;  // every picture format here is binary, every other input is text
@@ -176,8 +170,7 @@ void add_convert(CLI::App& root, Chosen& chosen) {
         else save_image(a->output, image.color, image.alpha, save);
       } else {
         check_skeleton_name(a->output);
-        const bool annotation = is_annotation_file(a->input);
-        LoadedSkeleton loaded = annotation ? LoadedSkeleton{skeleton_from_annotation(load_annotation(a->input)), {}} : load_skeleton(a->input);
+        const LoadedSkeleton loaded = load_any_skeleton(a->input);
         for (const std::string& note : loaded.notes) monitor.note(note);
         save_skeleton(loaded.skeleton, a->output);
       }

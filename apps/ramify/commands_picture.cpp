@@ -10,6 +10,7 @@
 #include "ramify/core/version.h"
 #include "ramify/image/image_io.h"
 #include "ramify/recipe/outputs.h"
+#include "ramify/recipe/painting.h"
 #include "ramify/recipe/pipeline.h"
 #include "ramify/recipe/recipe.h"
 
@@ -17,6 +18,7 @@ namespace ramify::app {
 namespace {
 
 const std::vector<std::string> kPictures{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".webp"};
+const std::vector<std::string> kReplayed{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".webp", ".svg"};
 const std::vector<std::string> kSkeletons{".json", ".swc", ".svg", ".geojson"};
 
 // Everything the three verbs can be told; each shows only what has an effect on it.
@@ -116,6 +118,21 @@ Outcome make_all(PictureArguments& a, const SharedOptions& shared, const std::st
   return outcome;
 }
 
+Outcome replay_painting(const Recipe& recipe, const std::string& input, const std::string& output, const SharedOptions& shared,
+                        const Monitor& monitor) {
+  PaintingRequest request = painting_from_recipe(recipe, folder_of(input));
+  request.limits = shared.load_limits();
+  check_painting(request, output);
+  if (request.options.animate && extension_of(output) != ".webp") {
+    throw OptionError("output", "'" + printable(output, 200) + "'", "the recipe is an animation's; the name must end in .webp");
+  }
+  const LoadedPainting painting = load_painting(request, recipe.seed, monitor.stage("load", 0.0, 0.3));
+  const Monitor part = monitor.stage("paint", 0.3, 1.0);
+  if (request.options.animate) save_animation(painting, output, part);
+  else save_painting(painting, request.options.growth, output, part);
+  return {{output}, {}, ""};
+}
+
 }  // namespace
 
 void add_synth(CLI::App& root, Chosen& chosen) {
@@ -184,7 +201,7 @@ void add_replay(CLI::App& root, Chosen& chosen) {
   app->footer("Example:\n  ramify replay out.png -o again.png && cmp out.png again.png");
   app->callback([&chosen, a] {
     chosen.work = [&chosen, a](const Monitor& monitor) {
-      check_extension("output", a->output, kPictures);
+      check_extension("output", a->output, kReplayed);
       check_outputs({a->output}, {a->input});
       const SharedOptions& shared = chosen.shared;
       if (shared.no_clobber && file_exists(a->output)) return Outcome{{}, {a->output}, ""};
@@ -193,6 +210,8 @@ void add_replay(CLI::App& root, Chosen& chosen) {
         throw InputError(printable(a->input, 300), "was made by ramify " + printable(recipe.version, 40) + ", this is " RAMIFY_VERSION
                          "; the bytes may differ, --any-version goes on all the same");
       }
+      if (recipe.verb == "paint") return replay_painting(recipe, a->input, a->output, shared, monitor);
+      check_extension("output", a->output, kPictures);
       PictureRequest request = request_from_recipe(recipe, folder_of(a->input));
       request.limits = request.exemplar.limits = shared.load_limits();
       const LoadedRequest loaded = load_request(request, monitor.stage("load", 0.0, 0.3));

@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
   root.set_version_flag("--version", "ramify " RAMIFY_VERSION);
   root.require_subcommand(1);
   root.get_formatter()->column_width(34);
-  for (const auto add : {add_synth, add_grow, add_render, add_trace, add_rectify, add_complete, add_exemplar, add_compare,
+  for (const auto add : {add_synth, add_grow, add_render, add_trace, add_rectify, add_complete, add_exemplar, add_paint, add_compare,
                          add_convert, add_replay, add_info}) {
     add(root, chosen);
   }

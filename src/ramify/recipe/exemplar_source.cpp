@@ -90,6 +90,15 @@ bool is_json_file(const std::string& path) {
   return first != std::string::npos && text[first] == '{';
 }
 
+bool is_annotation_file(const std::string& path) {
+  return is_json_file(path) && read_file(path, kSkeletonFileLimit).find("\"ramify-annotation\"") != std::string::npos;
+}
+
+LoadedSkeleton load_any_skeleton(const std::string& path) {
+  if (is_annotation_file(path)) return {skeleton_from_annotation(load_annotation(path)), {}};
+  return load_skeleton(path);
+}
+
 Photo load_photo(const std::string& path, const LoadLimits& limits, const Monitor& monitor) {
   LoadedImage image = load_image(path, limits);
   for (const std::string& warning : image.warnings) monitor.note(warning);

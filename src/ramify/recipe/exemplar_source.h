@@ -10,6 +10,7 @@
 #include "ramify/exemplar/exemplar.h"
 #include "ramify/image/image_io.h"
 #include "ramify/recipe/recipe.h"
+#include "ramify/skeleton/skeleton_io.h"
 
 namespace ramify {
 
@@ -35,5 +36,9 @@ Photo load_photo(const std::string& path, const LoadLimits& limits, const Monito
 
 // Whether the file starts like a JSON object.
 bool is_json_file(const std::string& path);
+bool is_annotation_file(const std::string& path);
+
+// A skeleton file of any kind, or the branches of an annotation.
+LoadedSkeleton load_any_skeleton(const std::string& path);
 
 }  // namespace ramify

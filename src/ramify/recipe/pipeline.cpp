@@ -13,21 +13,13 @@
 #include "ramify/image/filter.h"
 #include "ramify/image/image_io.h"
 #include "ramify/image/sample.h"
+#include "ramify/paint/drawing.h"
+#include "ramify/recipe/canvas.h"
 #include "ramify/skeleton/skeleton_io.h"
 
 namespace ramify {
 namespace fs = std::filesystem;
 namespace {
-
-Size parse_canvas(const std::string& text) {
-  const std::size_t cross = text.find('x');
-  double width = 0, height = 0;
-  const bool numbers = cross != std::string::npos && parse_number(text.substr(0, cross), width) && parse_number(text.substr(cross + 1), height);
-  if (!numbers || width < 1 || height < 1 || width != std::floor(width) || height != std::floor(height) || width > 1e9 || height > 1e9) {
-    throw OptionError("size", "'" + printable(text, 60) + "'", "expected WIDTHxHEIGHT in px, such as 1600x1076");
-  }
-  return {static_cast<int>(width), static_cast<int>(height)};
-}
 
 // "x,y[,direction_deg[,radius]] …"
 std::vector<GrowthRoot> parse_roots(const std::string& text) {
@@ -51,14 +43,6 @@ std::vector<GrowthRoot> parse_roots(const std::string& text) {
     roots.push_back(root);
   }
   return roots;
-}
-
-void check_canvas(Size size, const LoadLimits& limits) {
-  const double pixels = static_cast<double>(size.width) * size.height;
-  if (pixels <= limits.pixels) return;
-  throw LimitError("a canvas of " + std::to_string(size.width) + "x" + std::to_string(size.height) + " px needs about " +
-                   number_text(std::round(pixels * 120 / 1048576)) + " MiB; the limit is " + number_text(limits.pixels) +
-                   " px (--limit-pixels)");
 }
 
 std::string hash_of(const std::string& path) { return sha256_hex(read_file(path, std::size_t{1} << 30)); }
@@ -277,6 +261,8 @@ Picture make_picture(const LoadedRequest& loaded, std::uint64_t seed, const Moni
 
 Recipe load_recipe(const std::string& path, const LoadLimits& limits) {
   if (is_json_file(path)) return parse_recipe(read_file(path, 1u << 24), printable(path, 300));
+  const std::string bytes = read_file(path, limits.file_bytes);
+  if (bytes.starts_with("<?xml") && !recipe_of_svg(bytes).empty()) return parse_recipe(recipe_of_svg(bytes), printable(path, 300));
   const LoadedImage image = load_image(path, limits);
   const auto text = image.texts.find("ramify-recipe");
   if (text != image.texts.end()) return parse_recipe(text->second, printable(path, 300));

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ramify/recipe/painting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "ramify/core/atomic_file.h"
+#include "ramify/core/version.h"
+#include "ramify/image/animation.h"
+#include "ramify/image/sample.h"
+#include "ramify/recipe/canvas.h"
+#include "ramify/recipe/exemplar_source.h"
+
+namespace ramify {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kBytesPerPixel = 72;  // picture, light and its blur
+
+bool is_svg_name(const std::string& path) { return fs::path(path).extension() == ".svg"; }
+
+// Where a canvas lies on a picture: as large as fits, in the middle.
+void fit_canvas(Size canvas, LoadedPainting& out) {
+  out.scale = std::min(static_cast<double>(out.size.width) / canvas.width, static_cast<double>(out.size.height) / canvas.height);
+  out.shift = 0.5 * (Vec2(out.size.width, out.size.height) - out.scale * Vec2(canvas.width, canvas.height));
+}
+
+// The photo's middle, filling the picture.
+ColorImage covering(const ColorImage& photo, Size size) {
+  if (photo.size() == size) return photo;
+  const double scale = std::max(static_cast<double>(size.width) / photo.width(), static_cast<double>(size.height) / photo.height());
+  const Size scaled{std::max(size.width, static_cast<int>(std::lround(scale * photo.width()))),
+                    std::max(size.height, static_cast<int>(std::lround(scale * photo.height())))};
+  return crop(resize(photo, scaled), (scaled.width - size.width) / 2, (scaled.height - size.height) / 2, size.width, size.height);
+}
+
+void add_input(LoadedPainting& out, const std::string& role, const std::string& path) {
+  out.recipe.inputs.push_back({role, fs::path(path).filename().string(), sha256_hex(read_file(path, std::size_t{1} << 30))});
+  out.files.push_back(path);
+}
+
+void load_over(LoadedPainting& out, Size canvas, const Monitor& monitor) {
+  const PaintingRequest& request = out.request;
+  const Photo photo = load_photo(request.over, request.limits, monitor);
+  add_input(out, "photo", request.over);
+  const bool sized = !request.options.size.empty() || request.options.scale != 1.0;
+  if (!sized) {
+    out.size = photo.color.size();
+    if (out.size != canvas) {
+      monitor.note("the canvas of " + std::to_string(canvas.width) + "x" + std::to_string(canvas.height) + " px is fitted into the photo of " +
+                   std::to_string(out.size.width) + "x" + std::to_string(out.size.height) + " px");
+    }
+    fit_canvas(canvas, out);
+  }
+  out.over = covering(photo.color, out.size);
+}
+
+// A frame can be made again by itself: its recipe names its moment.
+std::string recipe_at(const LoadedPainting& painting, double growth, bool animate) {
+  Recipe recipe = painting.recipe;
+  PaintingOptions options = painting.request.options;
+  options.growth = growth;
+  options.animate = animate;
+  recipe.options = option_values(describe(options));
+  return recipe_text(recipe);
+}
+
+Raster raster_at(const LoadedPainting& painting, double growth, const Monitor& monitor) {
+  RasterOptions options;
+  options.size = painting.size;
+  options.scale = painting.scale;
+  options.shift = painting.shift;
+  if (!painting.over.empty()) options.over = &painting.over;
+  return rasterize(draw_painting(painting.scene, growth, monitor), options, monitor);
+}
+
+bool is_opaque(const LoadedPainting& painting) { return painting.scene.background || !painting.over.empty(); }
+
+}  // namespace
+
+std::vector<OptionField> describe(PaintingOptions& o) {
+  std::vector<OptionField> fields = describe(o.paint);
+  for (OptionField& field : std::vector<OptionField>{
+           text("size", o.size, "Picture, WIDTHxHEIGHT in px; the canvas is fitted into it [canvas times --scale]"),
+           number("scale", o.scale, 0.01, 100, "", "Picture pixels for every pixel of the canvas."),
+           number("depth", o.depth, 8, 32, "bits", "8, 16 or 32 bits a channel."),
+           number("growth", o.growth, 0, 1, "", "Draws an unfinished painting: 0 = nothing yet, 1 = all."),
+           flag("animate", o.animate, "Lets it grow from its roots: an animated .webp, or numbered .png or .svg frames."),
+           number("frames", o.frames, 2, 10000, "N", "Frames of an animation."),
+           number("fps", o.fps, 0.1, 120, "1/s", "Frames a second of an animated .webp."),
+           number("hold", o.hold, 0, 600, "s", "How long an animated .webp shows the finished painting.")}) {
+    fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
+void check_painting(PaintingRequest& request, const std::string& output) {
+  PaintingOptions& o = request.options;
+  check_options(describe(o));
+  const bool svg = is_svg_name(output);
+  if (!o.size.empty()) {
+    if (o.scale != 1.0) throw OptionError("scale", number_text(o.scale), "has no effect beside --size; give one of them");
+    check_canvas(parse_canvas(o.size), request.limits, kBytesPerPixel);
+  }
+  if (o.depth != 8 && o.depth != 16 && o.depth != 32) throw OptionError("depth", std::to_string(o.depth), "expected 8, 16 or 32");
+  if (svg && o.depth != 8) throw OptionError("depth", std::to_string(o.depth), "has no effect on .svg");
+  if (!svg && fitting_bits(output, o.depth) != o.depth) {
+    throw OptionError("depth", std::to_string(o.depth), fs::path(output).extension().string() + " pictures have " +
+                      std::to_string(fitting_bits(output, o.depth)) + " bits; choose that depth or another format");
+  }
+  if (!request.over.empty() && svg) throw OptionError("over", "", "an .svg holds no photo; write a picture, or paint without it and place it over the photo");
+  if (!request.over.empty() && o.paint.background != "none") throw OptionError("background", o.paint.background, "has no effect beside --over; give one of them");
+  const std::string kind = fs::path(output).extension().string();
+  if ((kind == ".jpg" || kind == ".jpeg") && request.over.empty() && o.paint.background == "none") {
+    throw OptionError("output", "'" + printable(output, 200) + "'", "JPEG cannot hold transparency; give --background COLOUR or write .png");
+  }
+  if (o.animate && o.growth != 1.0) throw OptionError("growth", number_text(o.growth), "has no effect with --animate, which shows every moment");
+}
+
+LoadedPainting load_painting(const PaintingRequest& request, std::uint64_t seed, const Monitor& monitor) {
+  LoadedPainting out;
+  out.request = request;
+  out.recipe = {RAMIFY_VERSION, "paint", seed, {}, {}};
+  LoadedSkeleton file = load_any_skeleton(request.skeleton);
+  for (const std::string& note : file.notes) monitor.note(note);
+  add_input(out, "skeleton", request.skeleton);
+  const Skeleton& skeleton = file.skeleton;
+  const std::string name = printable(request.skeleton, 300);
+  if (skeleton.empty()) throw InputError(name, "the skeleton has no nodes: there is nothing to paint");
+  if (skeleton.dim != 2) throw InputError(name, "is a skeleton in space; paint draws flat ones");
+  if (skeleton.size.width < 1 || skeleton.size.height < 1) throw InputError(name, "has no canvas: its size must be at least 1x1 px");
+  const Size canvas = skeleton.size;
+  const PaintingOptions& o = request.options;
+  out.size = o.size.empty() ? Size{static_cast<int>(std::lround(std::max(1.0, std::min(1e9, o.scale * canvas.width)))),
+                                   static_cast<int>(std::lround(std::max(1.0, std::min(1e9, o.scale * canvas.height))))}
+                            : parse_canvas(o.size);
+  fit_canvas(canvas, out);
+  if (o.size.empty()) out.scale = o.scale, out.shift = Vec2::Zero();
+  check_canvas(out.size, request.limits, kBytesPerPixel);
+  if (!request.over.empty()) load_over(out, canvas, monitor);
+  out.scene = prepare_painting(skeleton, o.paint, Rng(seed).child("paint"), monitor);
+  return out;
+}
+
+void save_painting(const LoadedPainting& painting, double growth, const std::string& path, const Monitor& monitor) {
+  const std::string recipe = recipe_at(painting, growth, false);
+  if (is_svg_name(path)) {
+    write_file(path, drawing_svg(draw_painting(painting.scene, growth, monitor), painting.scale, recipe));
+    return;
+  }
+  const Raster raster = raster_at(painting, growth, monitor);
+  SaveOptions save;
+  save.bits = painting.request.options.depth;
+  save.dither = painting.scene.options.style == PaintStyle::Lightning;
+  save.recipe = recipe;
+  if (is_opaque(painting)) save_image(path, raster.color, save);
+  else save_image(path, raster.color, raster.alpha, save);
+}
+
+double growth_of_frame(const PaintingOptions& options, int frame) {
+  return (frame + 1.0) / options.frames;
+}
+
+void save_animation(const LoadedPainting& painting, const std::string& path, const Monitor& monitor) {
+  const PaintingOptions& o = painting.request.options;
+  const int milliseconds = std::max(1, static_cast<int>(std::lround(1000.0 / o.fps)));
+  const auto frame = [&](int i) {
+    Raster raster = raster_at(painting, growth_of_frame(o, i), monitor);
+    const int last = i + 1 == o.frames ? static_cast<int>(std::lround(1000.0 * o.hold)) : 0;
+    return AnimationFrame{std::move(raster.color), is_opaque(painting) ? Mask() : std::move(raster.alpha), milliseconds + last};
+  };
+  AnimationOptions options;
+  options.recipe = recipe_at(painting, 1.0, true);
+  write_file(path, encode_animation(painting.size, o.frames, frame, options, monitor));
+}
+
+PaintingRequest painting_from_recipe(const Recipe& recipe, const std::string& folder) {
+  PaintingRequest request;
+  for (OptionField& field : describe(request.options)) {
+    const auto value = recipe.options.find(field.name);
+    if (value != recipe.options.end()) set_text(field, value->second);
+  }
+  for (const RecipeInput& input : recipe.inputs) {
+    if (input.role == "skeleton") request.skeleton = find_input(input, folder);
+    if (input.role == "photo") request.over = find_input(input, folder);
+  }
+  return request;
+}
+
+}  // namespace ramify

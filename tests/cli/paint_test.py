@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""paint: drawings against other programs (librsvg, Pillow), same bytes, bad input (RELIABILITY rows 33, 34, 46, 71)."""
+import io
+import json
+import os
+import pathlib
+import subprocess
+import unittest
+import xml.etree.ElementTree as ET
+
+import numpy
+from PIL import Image
+
+from harness import CliTest
+
+INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def tree_swc():
+    """A trunk with six branches on a 200 x 160 canvas."""
+    rows = ["# ramify canvas 200 160"]
+    rows += [f"{i + 1} 0 {100 + (i % 3) - 1} {155 - 7 * i} 0 {7 - 0.25 * i} {i if i else -1}" for i in range(20)]
+    number = 21
+    for b, side in enumerate((-1, 1, -1, 1, -1, 1)):
+        parent, x, y = 4 + 2 * b, 100, 155 - 7 * (3 + 2 * b)
+        for i in range(9):
+            x, y = x + side * 8, y - 3 - (i % 2) * 2
+            rows.append(f"{number} 0 {x} {y} 0 {2.4 - 0.2 * i} {parent}")
+            parent, number = number, number + 1
+    return "\n".join(rows) + "\n"
+
+
+def rendered(svg):
+    """Pixels of librsvg, straight alpha."""
+    done = subprocess.run(["rsvg-convert", svg], capture_output=True, check=True)
+    return numpy.asarray(Image.open(io.BytesIO(done.stdout)).convert("RGBA"), float) / 255
+
+
+def over(pixels, paper):
+    alpha = pixels[..., 3:]
+    return pixels[..., :3] * alpha + paper * (1 - alpha)
+
+
+class Paint(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.tree = self.path("tree.swc", tree_swc())
+
+    def test_librsvg_sees_what_we_paint(self):
+        for style, extra in (("ink", ["--palette", "coral"]), ("vine", ["--flowers", "0.4"]), ("vine", ["--leaf", "ivy", "--phyllotaxis", "spiral"])):
+            for scale in (1, 3):
+                svg, png = self.path("a.svg"), self.path("a.png")
+                common = ["--style", style, "--scale", scale, *extra]
+                self.ok("paint", self.tree, "-o", svg, *common)
+                self.ok("paint", self.tree, "-o", png, *common)
+                ours = numpy.asarray(Image.open(png).convert("RGBA"), float) / 255
+                theirs = rendered(svg)
+                self.assertEqual(ours.shape, theirs.shape)
+                self.assertEqual(ours.shape[:2], (160 * scale, 200 * scale))
+                for paper in (1.0, 0.0):
+                    difference = numpy.abs(over(ours, paper) - over(theirs, paper))
+                    self.assertLess(difference.mean(), 0.003, (style, scale, paper))
+                    self.assertLess((difference.max(axis=2) > 0.12).mean(), 0.004, (style, scale, paper))
+
+    def test_light_in_svg_is_the_light_in_pixels_to_the_eye(self):
+        svg, png = self.path("a.svg"), self.path("a.png")
+        for out in (svg, png):
+            self.ok("paint", self.tree, "-o", out, "--preset", "lightning")
+        ours = numpy.asarray(Image.open(png).convert("RGB"), float) / 255
+        theirs = over(rendered(svg), 0.0)
+        self.assertGreater(numpy.corrcoef(ours.mean(axis=2).ravel(), theirs.mean(axis=2).ravel())[0, 1], 0.9)
+
+    def test_svg_has_inkscape_layers_and_few_nodes(self):
+        svg = self.path("a.svg")
+        self.ok("paint", self.tree, "-o", svg)
+        root = ET.parse(svg).getroot()
+        self.assertEqual(root.get("viewBox"), "0 0 200 160")
+        layers = [g for g in root.iter(SVG + "g") if g.get(INKSCAPE + "groupmode") == "layer"]
+        self.assertEqual([g.get(INKSCAPE + "label") for g in layers], ["order 1", "order 0"])
+        paths = list(root.iter(SVG + "path"))
+        self.assertEqual(len(paths), 7)
+        self.assertLess(sum(p.get("d").count("c") for p in paths), 25 * len(paths))
+
+    def test_opacity_depth_and_size(self):
+        out = self.path("a.png")
+        self.ok("paint", self.tree, "-o", out, "--size", "500x300", "--depth", "16")
+        picture = Image.open(out)
+        self.assertEqual(picture.size, (500, 300))
+        data = pathlib.Path(out).read_bytes()
+        self.assertEqual((data[24], data[25]), (16, 6))  # bits, RGB with alpha
+        alpha = numpy.asarray(picture.convert("RGBA"))[..., 3]
+        self.assertEqual((alpha[0, 0], alpha.max()), (0, 255))
+        self.ok("paint", self.tree, "-o", self.path("b.png"), "--background", "#204060")
+        plain = Image.open(self.path("b.png"))
+        self.assertEqual(plain.mode, "RGB")
+        self.assertEqual(plain.getpixel((0, 0)), (0x20, 0x40, 0x60))
+
+    def test_painting_on_a_photo(self):
+        photo = self.path("p.png")
+        Image.new("RGB", (400, 320), (30, 60, 90)).save(photo)
+        for style in ("ink", "lightning"):
+            self.ok("paint", self.tree, "-o", self.path("o.png"), "--over", photo, "--style", style)
+            picture = numpy.asarray(Image.open(self.path("o.png")))
+            self.assertEqual(picture.shape, (320, 400, 3))
+            self.assertLess(numpy.abs(picture[2, 2].astype(int) - (30, 60, 90)).max(), 2 if style == "ink" else 40)
+            middle = picture[280, 200].astype(int)
+            self.assertTrue((middle < (60, 60, 60)).all() if style == "ink" else (middle > 200).all(), middle)
+
+    def test_pillow_plays_the_animation(self):
+        out = self.path("a.webp")
+        self.ok("paint", self.tree, "-o", out, "--style", "vine", "--animate", "--frames", "12", "--fps", "20", "--hold", "1")
+        film = Image.open(out)
+        self.assertEqual((film.n_frames, film.size), (12, (200, 160)))
+        covered = []
+        for i in range(12):
+            film.seek(i)
+            film.load()
+            covered.append(int((numpy.asarray(film.convert("RGBA"))[..., 3] > 128).sum()))
+        self.assertTrue(all(b >= a - 20 for a, b in zip(covered, covered[1:])), covered)
+        self.assertLess(covered[0], 0.2 * covered[-1])
+        self.ok("paint", self.tree, "-o", self.path("still.png"), "--style", "vine")
+        still = numpy.asarray(Image.open(self.path("still.png")).convert("RGBA"))[..., 3]
+        self.assertLess(abs(covered[-1] - int((still > 128).sum())), 30)
+
+    def test_frames_are_numbered_and_each_can_be_made_again(self):
+        self.ok("paint", self.tree, "-o", self.path("f.png"), "--animate", "--frames", "3")
+        self.assertEqual(sorted(os.listdir(self.dir)), ["f_0000.png", "f_0001.png", "f_0002.png", "tree.swc"])
+        self.ok("replay", self.path("f_0001.png"), "-o", self.path("again.png"))
+        self.assertEqual(self.digest(self.path("f_0001.png")), self.digest(self.path("again.png")))
+
+    def test_same_bytes_for_threads_and_replay(self):
+        for name, extra in (("a.png", []), ("a.svg", []), ("a.webp", ["--animate", "--frames", "4"]), ("a.tif", ["--depth", "16"])):
+            made = set()
+            for threads in (1, 2, 8):
+                self.ok("paint", self.tree, "-o", self.path(name), "--preset", "blossom", "--seed", "7", "--threads", threads, *extra)
+                made.add(self.digest(self.path(name)))
+            again = self.path("again" + name[1:])
+            self.ok("replay", self.path(name), "-o", again)
+            made.add(self.digest(again))
+            self.assertEqual(len(made), 1, name)
+
+    def test_presets(self):
+        listed = json.loads(self.ok("paint", "--preset", "list", "--json").stdout)
+        self.assertGreater(len(listed), 8)
+        for preset in listed:
+            self.ok("paint", self.tree, "-o", self.path("a.png"), "--preset", preset["name"])
+        self.fails(2, "did you mean ivy", "paint", self.tree, "-o", self.path("b.png"), "--preset", "ivi")
+        self.ok("paint", self.tree, "-o", self.path("a.svg"), "--preset", "ivy", "--leaf", "oak")  # the flag wins
+        self.assertIn('"leaf":"oak"', pathlib.Path(self.path("a.svg")).read_text().replace(" ", ""))
+
+    def test_options_without_effect_are_refused(self):
+        out = self.path("a.png")
+        for extra in (["--leaf", "oak"], ["--glow", "2"], ["--style", "lightning", "--flowers", "0.5"], ["--fps", "10"],
+                      ["--animate", "--fps", "10"], ["--animate", "--growth", "0.5"], ["--size", "100x100", "--scale", "2"]):
+            self.fails(2, "no effect", "paint", self.tree, "-o", out, *extra)
+        self.fails(2, "no effect", "paint", self.tree, "-o", self.path("a.svg"), "--depth", "16")
+        self.fails(2, "transparency", "paint", self.tree, "-o", self.path("a.jpg"))
+        photo = self.path("p.png")
+        Image.new("RGB", (20, 20)).save(photo)
+        self.fails(2, "photo", "paint", self.tree, "-o", self.path("a.svg"), "--over", photo)
+        self.fails(2, "no effect", "paint", self.tree, "-o", out, "--over", photo, "--background", "#fff")
+
+    def test_bad_values_and_files(self):
+        out = self.path("a.png")
+        for extra in (["--palette", "red"], ["--background", "blue"], ["--frames", "1e9", "--animate"], ["--scale", "0"], ["--scale", "nan"],
+                      ["--stile", "ink"], ["--style", "inc"], ["--size", "0x4"], ["--depth", "12"], ["--seed", "1e3"], ["--width", "-1"]):
+            self.fails(2, "", "paint", self.tree, "-o", out, *extra)
+        self.fails(2, "", "paint", self.tree)
+        self.fails(2, "", "paint", "-o", out)
+        self.fails(2, ".svg", "paint", self.tree, "-o", self.path("a.pdf"))
+        self.fails(3, "no nodes", "paint", self.path("e.json", '{"format":"ramify-skeleton","version":1,"size":[9,9],"dim":2,"nodes":[]}'), "-o", out)
+        self.fails(3, "", "paint", self.path("no.swc"), "-o", out)
+        self.fails(3, "", "paint", self.path("junk.swc", b"\0\1\2"), "-o", out)
+        self.fails(5, "MiB", "paint", self.tree, "-o", out, "--size", "1000000x1000000")
+        self.fails(5, "", "paint", self.tree, "-o", out, "--scale", "100", "--limit-pixels", "1e6")
+        self.fails(4, "folder", "paint", self.tree, "-o", self.path("nowhere/a.png"))
+
+    def test_no_clobber_and_odd_skeletons(self):
+        out = self.path("a.svg", "mine")
+        self.ok("paint", self.tree, "-o", out, "--no-clobber")
+        self.assertEqual(pathlib.Path(out).read_text(), "mine")
+        dot = self.path("dot.swc", "# ramify canvas 30 20\n1 0 15 10 0 4 -1\n")
+        twice = self.path("twice.swc", "# ramify canvas 30 20\n1 0 15 10 0 4 -1\n2 0 15 10 0 4 1\n3 0 15 10 0 1e-9 2\n4 0 900 10 0 300 1\n")
+        for skeleton in (dot, twice):
+            for style in ("ink", "vine", "lightning"):
+                for kind in ("png", "svg"):
+                    self.ok("paint", skeleton, "-o", self.path("o." + kind), "--style", style)
+
+
+if __name__ == "__main__":
+    unittest.main()
