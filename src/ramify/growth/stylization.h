@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Dendritic stylization (Long & Mould 2009, "Dendritic stylization", section 4): a picture told by one dendrite whose
+// paths run along what is important and end where much of it lies.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ramify/core/monitor.h"
+#include "ramify/core/options.h"
+#include "ramify/core/random.h"
+#include "ramify/graph/lattice.h"
+#include "ramify/graph/metric.h"
+#include "ramify/growth/dendrite.h"
+#include "ramify/image/image.h"
+#include "ramify/skeleton/skeleton.h"
+
+namespace ramify {
+
+struct StylizeOptions {
+  MetricOptions metric{Metric::Partial};
+  int endpoints = 3000;
+  double constant = 0.02;      // cost every node has
+  double noise = 0.2;          // random cost. The paper uses very little; with more, flat ground is told by winding lines
+                               // instead of straight ones along the lattice, and edges hold just as well
+  double least = 0.0;          // 0..1: no endpoint where importance is below, so light ground stays empty
+  double upward = 1.0;         // steps up cost so many times as much: 4 for lightning
+  double sideways = 1.0;       // steps to the side: 2 for lightning
+};
+std::vector<OptionField> describe(StylizeOptions& options);
+
+struct ImportanceThickness {
+  double thin = 0.3;           // px, radius where nothing is important
+  double thick = 2.0;          // px, radius where everything is
+  int window = 15;             // nodes on either side in the rolling mean of importance; beyond a tip counts as 0
+};
+std::vector<OptionField> describe(ImportanceThickness& options);
+
+// The lattice with a node for every pixel, dear where little is important: constant + (1 - importance) + noise * u,
+// with eight neighbours and edges that cost the mean of their nodes (section 4.1). allowed: empty, or 0 = forbidden.
+Lattice importance_lattice(const ScalarImage& importance, const Mask& allowed, const StylizeOptions& options, Rng rng);
+
+struct Stylization {
+  Dendrite dendrite;
+  std::vector<int> endpoints;  // nodes, in the order they were set
+};
+
+// root: the seed of the dendrite, px; empty = the middle of the picture. Deterministic in (inputs, rng). Throws
+// InputError when the picture is empty or the root is forbidden.
+Stylization stylize(const ScalarImage& importance, const Mask& allowed, std::optional<Vec2> root, const StylizeOptions& options,
+                    Rng rng, const Monitor& monitor);
+
+// Radii by the rolling mean of importance along every branch (section 4.3): a skeleton of pixel positions keeps its shape.
+// A branch's window runs on into its parent at the base and past its end at the tip.
+Skeleton emphasize(const Skeleton& skeleton, const ScalarImage& importance, const ImportanceThickness& options);
+
+}  // namespace ramify
