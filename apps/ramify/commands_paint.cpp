@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The verb that draws skeletons: paint.
-#include <algorithm>
 #include <memory>
 
 #include "commands.h"
 #include "outputs.h"
-#include "ramify/core/json.h"
+#include "presets.h"
 #include "ramify/paint/palette.h"
 #include "ramify/recipe/painting.h"
 #include "ramify/skeleton/skeleton_io.h"
@@ -21,47 +20,29 @@ struct PaintArguments {
   std::string output, preset;
 };
 
-std::string preset_list(bool json) {
-  Json::Array items;
-  std::string lines;
-  for (const PaintPreset& preset : paint_presets()) {
-    Json::Object options;
-    std::string words;
-    for (const auto& [name, value] : preset.options) {
-      options.push_back({name, value});
-      words += " --" + name + " " + value;
-    }
-    items.push_back(Json::Object{{"name", preset.name}, {"about", preset.about}, {"options", std::move(options)}});
-    lines += preset.name + std::string(preset.name.size() < 12 ? 12 - preset.name.size() : 1, ' ') + preset.about + "\n            " + words + "\n";
-  }
-  lines += "palettes:  ";
-  for (const Palette& palette : named_palettes()) lines += " " + palette.name;
-  return json ? json_text(Json(std::move(items))) + "\n" : lines + "\n";
+std::vector<Preset> presets() {
+  std::vector<Preset> out;
+  for (const PaintPreset& preset : paint_presets()) out.push_back({preset.name, preset.about, preset.options});
+  return out;
+}
+
+std::string palette_names() {
+  std::string line = "palettes:  ";
+  for (const Palette& palette : named_palettes()) line += " " + palette.name;
+  return line + "\n";
+}
+
+// A photo below takes the place of the preset's paper.
+void apply(const CLI::App& app, PaintArguments& a) {
+  if (a.preset.empty()) return;
+  std::vector<OptionField> fields = describe(a.request.options);
+  if (!a.request.over.empty()) std::erase_if(fields, [](const OptionField& field) { return field.name == "background"; });
+  apply_preset(presets(), a.preset, app, std::move(fields));
 }
 
 bool is_given(const CLI::App& app, const std::string& name) {
   const CLI::Option* option = app.get_option_no_throw("--" + name);
   return option && option->count() > 0;
-}
-
-// The preset's settings, where the command line names none.
-void apply_preset(const CLI::App& app, PaintArguments& a) {
-  if (a.preset.empty()) return;
-  const auto& presets = paint_presets();
-  const auto preset = std::find_if(presets.begin(), presets.end(), [&](const PaintPreset& p) { return p.name == a.preset; });
-  if (preset == presets.end()) {
-    std::vector<std::string> names;
-    for (const PaintPreset& p : presets) names.push_back(p.name);
-    const std::string near = nearest_word(a.preset, names);
-    throw OptionError("preset", "'" + printable(a.preset, 60) + "'",
-                      (near.empty() ? std::string("is not known") : "is not known; did you mean " + near + "?") + " (--preset list shows all)");
-  }
-  const bool on_photo = !a.request.over.empty();
-  for (OptionField& field : describe(a.request.options)) {
-    for (const auto& [name, value] : preset->options) {
-      if (name == field.name && !is_given(app, name) && !(on_photo && name == "background")) set_text(field, value);
-    }
-  }
 }
 
 void check_effects(const CLI::App& app, PaintArguments& a) {
@@ -100,7 +81,7 @@ Outcome paint_frames(const LoadedPainting& painting, const std::string& output, 
 }
 
 Outcome paint(PaintArguments& a, const SharedOptions& shared, const Monitor& monitor) {
-  if (a.preset == "list") return {{}, {}, preset_list(shared.json)};
+  if (a.preset == "list") return {{}, {}, preset_list(presets(), shared.json) + (shared.json ? "" : palette_names())};
   check_extension("output", a.output, kPaintings);
   a.request.limits = shared.load_limits();
   check_painting(a.request, a.output);
@@ -143,7 +124,7 @@ void add_paint(CLI::App& root, Chosen& chosen) {
     if (a->preset != "list") {
       if (a->request.skeleton.empty()) throw CLI::RequiredError("skeleton");
       if (a->output.empty()) throw CLI::RequiredError("--output");
-      apply_preset(*app, *a);
+      apply(*app, *a);
       check_effects(*app, *a);
     }
     chosen.work = [&chosen, a](const Monitor& m) { return paint(*a, chosen.shared, m); };

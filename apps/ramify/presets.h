@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Settings that go well together, by name: --preset NAME sets what the command line does not, --preset list shows all.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ramify/core/options.h"
+
+namespace ramify::app {
+
+struct Preset {
+  std::string name;
+  std::string about;  // one line
+  std::vector<std::pair<std::string, std::string>> options;
+};
+
+// As lines of text, or as JSON.
+std::string preset_list(const std::vector<Preset>& presets, bool json);
+
+// Sets the fields that the preset names and the command line does not. Throws OptionError for unknown names.
+void apply_preset(const std::vector<Preset>& presets, const std::string& name, const CLI::App& app, std::vector<OptionField> fields);
+
+}  // namespace ramify::app
