@@ -89,17 +89,6 @@ TEST_CASE("blobs are outliers and branches are not") {
   }
 }
 
-TEST_CASE("a blob on a branch is an outlier and the branch around it is not") {
-  Exemplar e = disc_exemplar(false, false);
-  const Vec3 middle = e.skeleton[12].position, other = e.skeleton[37].position;
-  const int cx = static_cast<int>(middle.x()), cy = static_cast<int>(middle.y());
-  for (int y = cy - 3; y <= cy + 3; ++y) for (int x = cx - 3; x <= cx + 3; ++x) e.photo.color(x, y) = {1.0f, 1.0f, 0.9f};
-  const Habitat habitat = find_habitat(e, {}, Rng(1), {});
-  CHECK(habitat.outliers(cx, cy) == 255);
-  CHECK(habitat.outliers(static_cast<int>(other.x()), static_cast<int>(other.y())) == 0);
-  CHECK(mean_of(habitat.outliers) < 0.003);  // the blob and its margin
-}
-
 TEST_CASE("a line nobody annotated is shadow") {
   const Habitat habitat = find_habitat(disc_exemplar(false, true), {}, Rng(1), {});
   int hit = 0;

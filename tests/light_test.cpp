@@ -274,7 +274,7 @@ TEST_CASE("sources near home can be banned") {
   const Skeleton own = tree(0.0, 3.0, 3.0);
   const LightScene scene = make_vessels(own, 3.0);
   ComposeOptions options;
-  options.leave_out = 3.6;  // discs of 11 px
+  options.leave_out = 40.0;
   const Composite out = compose_light(scene, own, own, CompositeMode::Absorb, options, Rng(5), {});
   int owned = 0, near = 0;
   for (int y = 0; y < kCanvas.height; ++y) {

@@ -24,6 +24,10 @@ void add_replay(CLI::App& root, Chosen& chosen);
 // commands_paint.cpp
 void add_paint(CLI::App& root, Chosen& chosen);
 
+// commands_plan.cpp
+void add_dendrite(CLI::App& root, Chosen& chosen);
+void add_stylize(CLI::App& root, Chosen& chosen);
+
 // commands_annotate.cpp
 void add_trace(CLI::App& root, Chosen& chosen);
 void add_rectify(CLI::App& root, Chosen& chosen);

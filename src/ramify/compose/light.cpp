@@ -67,6 +67,28 @@ void put_in_front(const LightScene& scene, Composite& result) {
 
 }  // namespace
 
+LightScene light_scene(const Exemplar& exemplar, const Habitat& habitat, const Plate& plate, ColorImage background,
+                       Mask outside) {
+  LightScene scene;
+  scene.photo = exemplar.photo.color;
+  scene.plate = plate.color;
+  scene.background = std::move(background);
+  scene.front = std::move(outside);
+  scene.brighter = exemplar.polarity != Polarity::Dark;
+  if (!habitat.shadow_is_texture) scene.shadow = habitat.shadow;
+  scene.unusable = Mask(scene.photo.size(), 0);
+  const auto mark = [&](const Mask& mask) {
+    for (std::size_t i = 0; i < mask.pixels().size(); ++i) if (mask.pixels()[i]) scene.unusable.pixels()[i] = 255;
+  };
+  mark(habitat.outside);
+  mark(habitat.outliers);
+  for (std::size_t i = 0; i < exemplar.regions.pixels().size(); ++i) {
+    const auto role = static_cast<RegionRole>(exemplar.regions.pixels()[i]);
+    if (role == RegionRole::Ignore || role == RegionRole::Keep) scene.unusable.pixels()[i] = 255;
+  }
+  return scene;
+}
+
 Composite compose_light(const LightScene& scene, const Skeleton& exemplar, const Skeleton& target, CompositeMode mode,
                         const ComposeOptions& options, Rng rng, const Monitor& monitor) {
   const LightRules rules = light_rules(mode);

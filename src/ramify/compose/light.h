@@ -7,6 +7,8 @@
 #include "ramify/compose/compose.h"
 #include "ramify/core/monitor.h"
 #include "ramify/core/random.h"
+#include "ramify/exemplar/habitat.h"
+#include "ramify/exemplar/plate.h"
 
 namespace ramify {
 
@@ -20,6 +22,11 @@ struct LightScene {
   Mask front;             // 255 on what stands before the new branches (skyline); may be empty
   bool brighter = false;  // Absorb: the branches are brighter than the plate
 };
+
+// The scene of an exemplar whose plate was made with Halo for Emit and Thin for Absorb. background and outside are of the
+// new canvas (compose/background.h); outside stays in front.
+LightScene light_scene(const Exemplar& exemplar, const Habitat& habitat, const Plate& plate, ColorImage background,
+                       Mask outside);
 
 // mode: Emit or Absorb. Fills color, plate, owner, source and composite of the result. Throws InputError when the photo
 // offers nothing to copy.

@@ -80,7 +80,7 @@ double plain_cost(const LightSource& source, const SourceSpot& spot, const Goal&
   double cost = spot.penalty + width * width + kMisfitWeight * std::pow(std::max(0.0, width - kStrictness[0].log_radius), 2);
   if (goal.level.sum() > 0.0) cost += level_cost(strand.level[spot.sample], goal.level);
   if (goal.start && spot.sample < 2.0 * goal.s) cost += kEarlyWeight;
-  if ((strand.points[spot.sample] - place).norm() < leave_out * goal.s) cost += kBanned;
+  if ((strand.points[spot.sample] - place).norm() < leave_out) cost += kBanned;
   return cost;
 }
 
@@ -161,8 +161,7 @@ std::optional<LightMatch> continue_light(const LightSource& source, const Strand
   match.place.sample += sample - before_sample;
   const Strand& strand = source.strands[match.place.strand];
   const int left = strand.count() - 1 - match.place.sample;
-  if (left < 0 || strand.bad[match.place.sample]) return std::nullopt;
-  if (!goal.tip && left < std::min(goal.s, 1.0 * goal.to_end)) return std::nullopt;
+  if (left < 0 || strand.bad[match.place.sample] || (!goal.tip && left < std::min(goal.s, 1.0 * goal.to_end))) return std::nullopt;
   while (match.spot + 2 < static_cast<int>(source.spots.size()) && source.spots[match.spot + 2].strand == match.place.strand &&
          source.spots[match.spot + 2].sample <= match.place.sample) {
     match.spot += 2;  // each place is listed as it is and mirrored

@@ -26,7 +26,7 @@ std::optional<LightMatch> continue_light(const LightSource& source, const Strand
                                          const LightMatch& before, int sample, const LightRules& rules, double leave_out);
 
 // The best rules.candidates matches for the place `sample` of `target`, best first; at least one. uses: how often each
-// spot was taken so far. Sources nearer than leave_out radii of the place's disc are banned.
+// spot was taken so far. Sources nearer than leave_out px to the place are banned.
 std::vector<LightMatch> match_light(const LightSource& source, const Strand& target, int sample,
                                     const std::vector<int>& uses, const LightRules& rules, double leave_out, Rng rng);
 

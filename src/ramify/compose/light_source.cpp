@@ -19,7 +19,7 @@ namespace {
 constexpr double kThin = 3.2;          // px; below, a bright surround shows more than the branch
 constexpr double kBrightHalo = 0.06;   // linear light
 constexpr double kHaloCost = 8.0;
-constexpr double kCourseSigma = 4.0;    // samples; finer bends are not followed but copied
+constexpr double kCourseSigma = 4.0;    // samples; the line follows the branch, not its finest bends, which are copied as they are
 constexpr double kLeastProminence = 0.4;
 constexpr double kStraight = 0.75;      // chord per arc
 constexpr double kWiderThanUsual = 1.6;
@@ -86,8 +86,7 @@ bool tangled(const Strand& strand, int t) {
   const int reach = static_cast<int>(2.0 * strand.radii[t]) + 6;
   const int a = std::max(0, t - reach), b = std::min(strand.count() - 1, t + reach);
   if ((strand.points[b] - strand.points[a]).norm() < kStraight * (b - a)) return true;
-  std::vector<double> near(strand.radii.begin() + std::max(0, t - kUsualReach),
-                           strand.radii.begin() + std::min(strand.count(), t + kUsualReach + 1));
+  std::vector<double> near(strand.radii.begin() + std::max(0, t - kUsualReach), strand.radii.begin() + std::min(strand.count(), t + kUsualReach + 1));
   const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
   std::nth_element(near.begin(), middle, near.end());
   return strand.radii[t] > kWiderThanUsual * *middle;

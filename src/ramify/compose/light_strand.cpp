@@ -11,7 +11,7 @@
 namespace ramify {
 namespace {
 
-constexpr double kPositionSigma = 4.0;  // px, of source and target alike: copies bring the source's finer bends along
+constexpr double kPositionSigma = 4.0;  // px; the source's and the target's zigzag are smoothed alike, and copies bring finer bends along
 constexpr double kRadiusSigma = 4.0;    // px
 constexpr int kRadiusMedian = 6;        // samples on both sides: a width that jumps up and back is a measuring fault
 constexpr double kFold = 0.45;           // chord / arc below which a stretch folds back on itself

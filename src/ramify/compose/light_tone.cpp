@@ -116,8 +116,7 @@ void assign_levels(std::vector<Strand>& targets, const LightSource& source, Rng 
     std::vector<double> brightness(target.points.size());
     for (int t = 0; t < target.count(); ++t) {
       const double u = std::clamp((t - target.first) / span, 0.0, 1.0);
-      const int from = s.first + static_cast<int>(std::lround(u * (s.count() - 1 - s.first)));
-      brightness[t] = std::max(source.weakest, s.level[from].mean());
+      brightness[t] = std::max(source.weakest, s.level[s.first + static_cast<int>(std::lround(u * (s.count() - 1 - s.first)))].mean());
     }
     brightness = smooth(brightness, 6.0);
     if (target.parent != kNone) {

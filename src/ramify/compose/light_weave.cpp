@@ -69,8 +69,7 @@ void for_fragments(std::vector<StrandJob>& jobs, const Body& body) {
 }
 
 // Lets every place go on from the best matches of the place before.
-void add_continuations(StrandJob& job, const LightSource& source, const Strand& target, const LightRules& rules,
-                       double leave_out) {
+void add_continuations(StrandJob& job, const LightSource& source, const Strand& target, const LightRules& rules, double leave_out) {
   for (std::size_t i = 1; i < job.matches.size(); ++i) {
     std::vector<LightMatch> before = job.matches[i - 1];
     std::stable_sort(before.begin(), before.end(), [](const LightMatch& a, const LightMatch& b) { return a.cost < b.cost; });
@@ -97,9 +96,7 @@ void choose_sources(std::vector<StrandJob>& jobs, const LightSource& source, con
     job.frames[i] = patch_frame(target, t, rules);
     job.matches[i] = match_light(source, target, t, uses, rules, leave_out, own);
   });
-  parallel_for(static_cast<int>(jobs.size()), [&](int j) {
-    add_continuations(jobs[j], source, targets[jobs[j].strand], rules, leave_out);
-  });
+  parallel_for(static_cast<int>(jobs.size()), [&](int j) { add_continuations(jobs[j], source, targets[jobs[j].strand], rules, leave_out); });
   for_fragments(jobs, [&](StrandJob& job, int i) {
     monitor.check();
     for (const LightMatch& match : job.matches[i]) {

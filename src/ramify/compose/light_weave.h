@@ -19,7 +19,7 @@ struct WovenLight {
   int fragments = 0;
 };
 
-// targets must have their levels. leave_out: disc radii, sources nearer than this to their own place are banned.
+// targets must have their levels. leave_out: px, sources nearer than this to their own place are banned.
 WovenLight weave_light(const LightSource& source, const LightLayer& layer, const std::vector<Strand>& targets, Size size,
                        const LightRules& rules, double leave_out, Rng rng, const Monitor& monitor);
 

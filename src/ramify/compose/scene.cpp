@@ -84,7 +84,9 @@ Composite compose_lit(const Exemplar& exemplar, const ComposeScene& scene, const
   light.unusable = either(scene.habitat.outside, role_mask(scene.habitat, RegionRole::Keep));
   light.front = front;
   light.brighter = measure_branch_look(exemplar.photo.color, scene.library).contrast > 0.0;
-  return compose_light(light, exemplar.skeleton, match_radii(skeleton, scene.library), scene.composite, options, rng.child("light"), monitor);
+  ComposeOptions own = options;
+  if (options.leave_out > 0.0) own.leave_out = options.leave_out * disc_radius(exemplar.unit_radius, FragmentOptions{});
+  return compose_light(light, exemplar.skeleton, match_radii(skeleton, scene.library), scene.composite, own, rng.child("light"), monitor);
 }
 
 // Where no fragment lies the picture shows the background, and so does its provenance.

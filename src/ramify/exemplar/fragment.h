@@ -47,7 +47,7 @@ struct FragmentOptions {
   double side_ratio = 0.4;     // child / parent radius below which a furcation is a Side fragment; 0 = never
   double source_spacing = 0.25;  // of the disc radius
   bool paper_spacing = false;  // sources lambda-spaced only (0.75 of the summed radii), discs clamp(3 r, 8, 0.2 side)
-  double wide_radius = 16.0;   // px; wider branches are dressed bank by bank; 0 = never
+  double wide_radius = 28.0;   // px; wider branches are dressed bank by bank; 0 = never
   double bank_disc = 40.0;     // px, disc radius on banks and between them
   double canvas_side = 0.0;    // px, for paper_spacing; 0 = no upper bound
 };

@@ -182,22 +182,6 @@ bool is_everywhere(const Mask& shadow, const Mask& without, double mean_share) {
   return covered > 0.6 * cells;
 }
 
-// Roundish blobs that lie far apart from everything usual, with a margin.
-Mask blobs_apart(const ScalarImage& apart, const Mask& banned) {
-  const auto [middle, spread] = robust_spread(apart, banned);
-  const float strong = static_cast<float>(std::max(22.0, middle + 9.0 * spread)), weak = 0.5f * strong;
-  Mask candidates = threshold(apart, weak);
-  for (std::size_t i = 0; i < candidates.pixels().size(); ++i) {
-    if (banned.pixels()[i]) candidates.pixels()[i] = 0;
-  }
-  const double largest = 0.01 * apart.width() * apart.height();
-  const Mask blobs = hysteresis(candidates, threshold(apart, strong), [&](int pixels, int w, int h) {
-    const double longer = std::max(w, h), thickness = pixels / longer;
-    return pixels >= 4 && pixels < largest && longer < 3.0 * thickness + 4.0;  // no ridges: elongation below 3
-  });
-  return dilate(blobs, 3.0);
-}
-
 }  // namespace
 
 std::vector<OptionField> describe(HabitatOptions& o) {
@@ -263,30 +247,18 @@ Mask find_outliers(const ColorImage& photo, const Mask& branches, const Mask& ou
   const ColorImage slow = masked_blur(lab, weight, 12.0);
   ScalarImage apart(photo.size());
   for (std::size_t i = 0; i < apart.pixels().size(); ++i) apart.pixels()[i] = delta_e(lab.pixels()[i], slow.pixels()[i]);
-  return blobs_apart(apart, banned);
-}
-
-Mask find_outliers_in_branches(const ColorImage& photo, const Mask& cores, const Mask& beside, const Mask& outside) {
-  constexpr double kReach = 40.0;  // px; wide water is that far from its ground
-  const ColorImage lab = lab_from_srgb(gaussian_blur(photo, 1.2));
-  ScalarImage on_branch(photo.size()), on_ground(photo.size());
-  Mask banned(photo.size(), 255);
-  for (std::size_t i = 0; i < banned.pixels().size(); ++i) {
-    on_branch.pixels()[i] = cores.pixels()[i] && !outside.pixels()[i] ? 1.0f : 0.0f;
-    on_ground.pixels()[i] = !beside.pixels()[i] && !outside.pixels()[i] ? 1.0f : 0.0f;
-    if (beside.pixels()[i] && !outside.pixels()[i]) banned.pixels()[i] = 0;
+  const auto [middle, spread] = robust_spread(apart, banned);
+  const float strong = static_cast<float>(std::max(22.0, middle + 9.0 * spread)), weak = 0.5f * strong;
+  Mask candidates = threshold(apart, weak);
+  for (std::size_t i = 0; i < candidates.pixels().size(); ++i) {
+    if (banned.pixels()[i]) candidates.pixels()[i] = 0;
   }
-  const ColorImage branch = masked_blur(lab, on_branch, kReach), ground = masked_blur(lab, on_ground, kReach);
-  ScalarImage apart(photo.size());
-  for (std::size_t i = 0; i < apart.pixels().size(); ++i) {
-    if (banned.pixels()[i]) continue;
-    // Banks show mixtures of both.
-    const Rgb way = branch.pixels()[i] - ground.pixels()[i], d = lab.pixels()[i] - ground.pixels()[i];
-    const float length = way.r * way.r + way.g * way.g + way.b * way.b;
-    const float share = length > 0.0f ? std::clamp((d.r * way.r + d.g * way.g + d.b * way.b) / length, 0.0f, 1.0f) : 0.0f;
-    apart.pixels()[i] = delta_e(lab.pixels()[i], ground.pixels()[i] + share * way);
-  }
-  return blobs_apart(apart, banned);
+  const double largest = 0.01 * photo.width() * photo.height();
+  const Mask blobs = hysteresis(candidates, threshold(apart, strong), [&](int pixels, int w, int h) {
+    const double longer = std::max(w, h), thickness = pixels / longer;
+    return pixels >= 4 && pixels < largest && longer < 3.0 * thickness + 4.0;  // no ridges: elongation below 3
+  });
+  return dilate(blobs, 3.0);
 }
 
 Mask find_shadow(const ColorImage& photo, Polarity polarity, const Mask& branches, const Mask& outside) {
@@ -334,9 +306,7 @@ Habitat find_habitat(const Exemplar& exemplar, const HabitatOptions& options, Rn
   const Mask branches = branch_zone(exemplar.skeleton, photo.size(), [](double r) { return 1.3 * r + 2.0; });
   // The glow and the banks beside a branch are no blobs.
   const Mask beside = branch_zone(exemplar.skeleton, photo.size(), [](double r) { return 2.5 * r + 8.0; });
-  const Mask cores = branch_zone(exemplar.skeleton, photo.size(), [](double r) { return 0.8 * r; });
-  habitat.outliers = add(add(find_outliers(photo, beside, habitat.outside), ignored),
-                         find_outliers_in_branches(photo, cores, beside, habitat.outside));
+  habitat.outliers = add(find_outliers(photo, beside, habitat.outside), ignored);
   monitor.report(0.7);
   const Mask shadow = find_shadow(photo, exemplar.polarity, branches, habitat.outside);
   double ground = 0.0, marked = 0.0;

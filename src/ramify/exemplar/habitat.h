@@ -36,9 +36,7 @@ Habitat find_habitat(const Exemplar& exemplar, const HabitatOptions& options, Rn
 // The steps, each of use by itself.
 Mask find_outside(const ColorImage& photo, const Skeleton& skeleton, const HabitatOptions& options, Rng rng,
                   const Monitor& monitor);
-// Off the branches; in and beside them, where what lies between the colours of branch and ground is usual (a cloud on water).
 Mask find_outliers(const ColorImage& photo, const Mask& branches, const Mask& outside);
-Mask find_outliers_in_branches(const ColorImage& photo, const Mask& cores, const Mask& beside, const Mask& outside);
 Mask find_shadow(const ColorImage& photo, Polarity polarity, const Mask& branches, const Mask& outside);
 
 }  // namespace ramify
