@@ -10,6 +10,7 @@
 #include "ramify/report/histogram_plot.h"
 #include "ramify/report/picture_figures.h"
 #include "ramify/report/report.h"
+#include "ramify/report/width_figures.h"
 #include "ramify/skeleton/edit.h"
 #include "support/random_skeleton.h"
 
@@ -145,6 +146,33 @@ TEST_CASE("the low-pass difference sees tone and not grain") {
   ColorImage brighter = a;
   for (Rgb& c : brighter.pixels()) c = c + Rgb{0.1f, 0.1f, 0.1f};
   CHECK(measure_lowpass_difference(a, brighter, all) == Approx(10.0).margin(1.5));
+}
+
+TEST_CASE("widths measured again tell how far a skeleton overstates them") {
+  constexpr double kHalf = 4.0;
+  const Size size{400, 240};
+  ColorImage picture = noise_picture(size, 4, 3.0);
+  const auto line = [](int stroke, double x) { return 40.0 + 50.0 * stroke + 6.0 * std::sin(0.03 * x + stroke); };
+  const auto skeleton = [&](double radius) {
+    Skeleton s(size);
+    for (int stroke = 0; stroke < 4; ++stroke) {
+      for (int i = 0; i <= 60; ++i) s.append({Vec3(20.0 + 6.0 * i, line(stroke, 20.0 + 6.0 * i), 0.0), radius, i ? s.count() - 1 : kNone, 0, 0});
+    }
+    return s;
+  };
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      for (int stroke = 0; stroke < 4; ++stroke) {
+        if (std::abs(y - line(stroke, x)) < kHalf + 0.1) picture(x, y) = {0.0f, 0.0f, 0.0f};
+      }
+      for (int c = 0; c < 3; ++c) picture(x, y)[c] = 0.3f * picture(x, y)[c] + (picture(x, y)[c] > 0.0f ? 0.5f : 0.0f);
+    }
+  }
+  const WidthRatio right = measure_width_ratio(picture, skeleton(kHalf), false), wide = measure_width_ratio(picture, skeleton(5.0), false);
+  CHECK(right.samples > 800);
+  CHECK(right.middle == Approx(1.0).margin(0.06));
+  CHECK(wide.middle == Approx(0.8).margin(0.06));
+  CHECK(right.deviation < 0.1);
 }
 
 TEST_CASE("a report is written in its three forms") {

@@ -8,6 +8,7 @@
 
 #include "ramify/image/color.h"
 #include "ramify/image/filter.h"
+#include "ramify/report/width_figures.h"
 #include "ramify/skeleton/draw.h"
 #include "ramify/skeleton/statistics.h"
 
@@ -167,6 +168,14 @@ std::vector<Figure> compare_pictures(const PictureSubject& exemplar, const Pictu
     Figure rebuilt{"lowpass_difference", "low-pass colour difference at the branches, median", "dE", {},
                    measure_lowpass_difference(exemplar.color, result.color, zone_b), {}, "", {}};
     figures.push_back(judged(rebuilt, 0.0, 7.0, "at most 4, where light is emitted 7"));
+  }
+  const WidthRatio own_width = measure_width_ratio(exemplar.color, exemplar.skeleton, provenance.glow);
+  const WidthRatio width = measure_width_ratio(result.color, result.skeleton, provenance.glow);
+  if (own_width.samples > 0 && width.samples > 0) {
+    Figure middle{"radius_remeasured", "radius measured again / the skeleton's, over the exemplar's own", "", own_width.middle,
+                  width.middle / own_width.middle, {}, "", {}};
+    figures.push_back(judged(middle, 0.9, 1.1, "0.90 to 1.10"));
+    figures.push_back({"radius_scatter", "its median deviation", "", own_width.deviation, width.deviation, {}, "", Verdict::None});
   }
   if (provenance.owner) {
     Figure seams{"seam_ratio", "step across seams / beside them", "", {}, measure_seam_ratio(result.color, *provenance.owner), {}, "", {}};

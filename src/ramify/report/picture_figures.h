@@ -52,6 +52,7 @@ struct PictureSubject {
 struct Provenance {
   const LabelImage* owner = nullptr;
   const Image<Eigen::Vector2f>* source = nullptr;
+  bool glow = false;  // branches are laid as emitted light
 };
 std::vector<Figure> compare_pictures(const PictureSubject& exemplar, const PictureSubject& result, const Provenance& provenance,
                                      Rng rng, const Monitor& monitor);

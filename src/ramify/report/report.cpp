@@ -81,7 +81,7 @@ Report make_report(const ReportSubject& exemplar, const ReportSubject& result, R
   if (!result.color.empty()) report.pictures.push_back({result.name, reduced(result.color)});
   if (!exemplar.color.empty() && !result.color.empty()) {
     Provenance provenance;
-    if (result.provenance) provenance = {&result.provenance->owner, &result.provenance->source};
+    if (result.provenance) provenance = {&result.provenance->owner, &result.provenance->source, result.provenance->composite == CompositeMode::Emit};
     report.picture = compare_pictures({exemplar.color, exemplar.skeleton}, {result.color, result.skeleton}, provenance,
                                       rng.child("picture"), monitor.stage("picture", 0.3, 0.95));
     if (result.provenance) add_crops(result, report);
