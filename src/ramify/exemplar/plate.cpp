@@ -166,7 +166,8 @@ Plate thin_plate(const Exemplar& exemplar, const Habitat& habitat, Rng rng, cons
   options.tone_reach = 25.0;
   options.quilt.nearby = std::max(0.12 * std::max(plate.hole.width(), plate.hole.height()), 4.0 * widest);
   const Mask landmark = mask_of(habitat, RegionRole::Landmark);
-  Completion filled = complete(exemplar.photo.color, without(plate.hole, landmark), add(never_copied(habitat), plate.hole), options,
+  // The landmark's holes are filled with ground first, so that no branch within it colours the ground beside its rim.
+  Completion filled = complete(exemplar.photo.color, plate.hole, add(never_copied(habitat), plate.hole), options,
                                rng.child("ground"), monitor.stage("ground", 0.0, 0.8));
   plate.color = std::move(filled.color);
   plate.source = std::move(filled.source);

@@ -14,6 +14,8 @@ constexpr double kNoiseFactor = 8.0;  // a line starts at this many times the me
 constexpr double kGlowFactor = 14.0;  // where branches glow: most of the sky is black and its median response tiny
 constexpr double kLargestShare = 0.4;  // of the picture: thicker classes are background
 constexpr double kLongest = 10.0;      // smallest area of a thick branch over its largest radius squared (a disc has 3.1)
+constexpr double kBankReach = 3.0;    // px to both sides of a rim
+constexpr double kBankShare = 0.45;   // of the contrast lies within these
 constexpr double kLowShare = 0.35;    // and goes on at this share of it (ALGORITHMS 3.3-3)
 
 double median_positive(const ScalarImage& image, const Mask& excluded) {
@@ -101,6 +103,45 @@ Mask without_blobs(const Mask& mask) {
   return out;
 }
 
+// Components with banks: across their rim the picture changes by a good part of what tells them from the rest. The rim of
+// a bright cloud is only where a slow change passes the threshold.
+Mask with_banks(const Mask& mask, const ScalarImage& picture, const Mask& excluded) {
+  int count = 0;
+  const LabelImage label = label_components(mask, true, count);
+  const Gradient inward = gradient(gaussian_blur(distance_inside(mask), 1.0));
+  std::vector<double> inside(static_cast<std::size_t>(count), 0.0), area(inside), step(inside), rim(inside);
+  double beyond = 0.0, rest = 0.0;
+  for (int y = 0; y < mask.height(); ++y) {
+    for (int x = 0; x < mask.width(); ++x) {
+      const int k = label(x, y);
+      if (k == kNone) {
+        if (!excluded.empty() && excluded(x, y)) continue;
+        beyond += picture(x, y);
+        rest += 1.0;
+        continue;
+      }
+      inside[k] += picture(x, y);
+      area[k] += 1.0;
+      const Vec2 way(inward.dx(x, y), inward.dy(x, y));
+      const bool on_rim = !mask.clamped(x - 1, y) || !mask.clamped(x + 1, y) || !mask.clamped(x, y - 1) || !mask.clamped(x, y + 1);
+      if (!on_rim || way.norm() < 1e-3) continue;
+      const Vec2 reach = kBankReach * way.normalized();
+      const int u = static_cast<int>(std::lround(reach.x())), v = static_cast<int>(std::lround(reach.y()));
+      if (!mask.contains(x - u, y - v) || (!excluded.empty() && excluded(x - u, y - v))) continue;
+      step[k] += picture.clamped(x + u, y + v) - picture(x - u, y - v);
+      rim[k] += 1.0;
+    }
+  }
+  Mask out(mask.size());
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    const int k = label.pixels()[i];
+    if (k == kNone || rim[k] == 0.0) continue;
+    const double contrast = inside[k] / area[k] - beyond / std::max(rest, 1.0);
+    if (step[k] / rim[k] / contrast >= kBankShare) out.pixels()[i] = 255;
+  }
+  return out;
+}
+
 // Two classes by Otsu; of them the part that is thicker than `core` px, regrown within the class.
 Mask thick_branches(const ScalarImage& picture, bool bright, double core, const Mask& excluded) {
   const float cut = otsu_threshold(picture, excluded);
@@ -116,7 +157,7 @@ Mask thick_branches(const ScalarImage& picture, bool bright, double core, const 
   for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
     opened.pixels()[i] = opened.pixels()[i] && mask.pixels()[i] ? 255 : 0;
   }
-  return without_blobs(opened);
+  return with_banks(without_blobs(opened), picture, excluded);
 }
 
 }  // namespace

@@ -7,9 +7,12 @@
 #include "ramify/core/error.h"
 #include "ramify/core/parallel.h"
 #include "ramify/exemplar/line_finder.h"
+#include "ramify/exemplar/photo_surround.h"
 #include "ramify/exemplar/region_map.h"
 #include "ramify/exemplar/stroke_text.h"
 #include "ramify/exemplar/trace_graph.h"
+#include "ramify/exemplar/trace_landmark.h"
+#include "ramify/exemplar/trace_net.h"
 #include "ramify/exemplar/trace_tree.h"
 #include "ramify/exemplar/traced_line.h"
 #include "ramify/exemplar/width_probe.h"
@@ -20,6 +23,7 @@ namespace {
 
 constexpr double kSnap = 8.0;       // px, how far a given point may be moved to the ridge (ALGORITHMS 3.1-4)
 constexpr double kAttach = 16.0;    // px, strokes starting or ending this near to another one join it
+constexpr double kLandmarkCut = 0.8;  // of a found landmark's radius: there branches start
 constexpr double kStaircase = 2.0;  // px, smoothing that removes the pixel staircase (PICTURES 10)
 
 Mask excluded_pixels(const Photo& photo, const std::vector<Region>& regions) {
@@ -94,6 +98,14 @@ double confidence_of(const TraceEdge& edge, const RidgeEvidence& e, const Mask& 
   return sum / static_cast<double>(edge.line.size());
 }
 
+double mean_strength(const TraceEdge& edge, const RidgeEvidence& e) {
+  double sum = 0.0;
+  for (const Vec2& p : edge.line) {
+    sum += e.field.strength.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+  }
+  return sum / static_cast<double>(edge.line.size());
+}
+
 // Edges that hold no ridge of their own: closed gaps of the domain, rims.
 TraceGraph without_weak_edges(const TraceGraph& graph, const RidgeEvidence& e, const Mask& drawn) {
   TraceGraph kept{graph.nodes, {}};
@@ -151,6 +163,48 @@ void measure_graph(TraceGraph& graph, const RidgeEvidence& evidence, const Trace
     measure_edge(edge, evidence, options);
     clear_junction_ends(edge, incident[edge.from].size() > 2, incident[edge.to].size() > 2);
   });
+}
+
+// Measured lines of the photo.
+TraceGraph traced_graph(const Photo& photo, const RidgeEvidence& evidence, const Mask& excluded,
+                        const TraceOptions& options, const Monitor& monitor) {
+  const LatticeCosts costs = live_wire_costs(evidence);
+  const Monitor lines_monitor = monitor.stage("lines", 0.5, 0.8);
+  const bool strokes = !options.through.empty(), by_itself = !strokes || options.automatic;
+  Mask drawn(photo.color.size()), lines(photo.color.size());
+  if (strokes) drawn = strokes_as_lines(evidence, costs, options, lines_monitor);
+  if (by_itself) {
+    lines = find_lines(evidence, excluded, options, lines_monitor);
+    if (options.gap > 0.0) lines = bridge_gaps(evidence, costs, lines, options.gap, lines_monitor);
+  }
+  lines = united(lines, drawn, evidence);
+  const Monitor graph_monitor = monitor.stage("widths", 0.8, 0.95);
+  PruneOptions prune;
+  prune.min_component = by_itself ? options.min_length : 0.0;
+  prune.weak_spur = options.min_length;
+  TraceGraph graph = pruned(without_weak_edges(graph_from_lines(lines), evidence, drawn), evidence.radius, prune);
+  if (by_itself) {
+    for (TraceEdge& e : graph.edges) e.strength = mean_strength(e, evidence);
+    graph = pruned(without_net(graph), evidence.radius, prune);
+  }
+  if (graph.edges.empty()) {
+    throw InputError(photo.name, "no branches found; try --polarity, --sensitivity, --max-radius, or give points with "
+                                 "--through");
+  }
+  for (TraceEdge& e : graph.edges) e.confidence = confidence_of(e, evidence, drawn);
+  measure_graph(graph, evidence, options);
+  graph_monitor.report(1.0);
+  return graph;
+}
+
+// Branches that start within a found landmark, near its rim; what the photo shows further inside stays the landmark's.
+Annotation rooted_on(const Landmark& landmark, const TraceGraph& graph, Size size, std::vector<Region>& regions) {
+  std::vector<int> ends;
+  const TraceGraph cut = cut_at(graph, landmark.centre, kLandmarkCut * landmark.radius, ends);
+  TreeOptions tree;
+  for (const int end : ends) tree.roots.push_back(cut.nodes[end]);
+  regions.push_back({RegionRole::Landmark, outline_of(landmark)});
+  return annotation_from_graph(cut, size, tree);
 }
 
 // Points about half a radius apart; junctions, links and ends stay.
@@ -234,6 +288,8 @@ std::vector<OptionField> describe(TraceOptions& o) {
       flag("automatic", o.automatic, "With --through: find the other branches as well."),
       flag("straight", o.straight, "With --through: follow the points alone, not the picture."),
       text("root", o.root, "Where the structure starts: \"x,y\" in px, or several points."),
+      flag("find-regions", o.find_regions,
+           "Without --regions: take a black surround for outside, a spot where thick branches meet for a landmark."),
       text("regions", o.regions, "Polygons \"outside: x,y x,y x,y; keep: …; ignore: …; landmark: …\" in px."),
   };
 }
@@ -241,41 +297,28 @@ std::vector<OptionField> describe(TraceOptions& o) {
 Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Monitor& monitor) {
   TraceOptions checked = options;
   check_options(describe(checked));
-  const std::vector<Region> regions = parse_regions("regions", options.regions);
-  const std::vector<Vec2> root = parse_points("root", options.root);
+  std::vector<Region> regions = parse_regions("regions", options.regions);
+  const bool by_itself = options.through.empty() || options.automatic;
+  const bool find_regions = options.find_regions && regions.empty() && by_itself;
+  if (find_regions) {
+    if (auto surround = dark_surround(photo.color)) regions.push_back(std::move(*surround));
+  }
   const Mask excluded = excluded_pixels(photo, regions);
   const RidgeEvidence evidence =
       gather_evidence(photo.color, excluded, options, monitor.stage("ridges", 0.0, 0.5));
-  const LatticeCosts costs = live_wire_costs(evidence);
-  const Monitor lines_monitor = monitor.stage("lines", 0.5, 0.8);
-  const bool strokes = !options.through.empty();
-  Mask drawn(photo.color.size()), lines(photo.color.size());
-  if (strokes) drawn = strokes_as_lines(evidence, costs, options, lines_monitor);
-  if (!strokes || options.automatic) {
-    lines = find_lines(evidence, excluded, options, lines_monitor);
-    if (options.gap > 0.0) lines = bridge_gaps(evidence, costs, lines, options.gap, lines_monitor);
-  }
-  lines = united(lines, drawn, evidence);
-  const Monitor graph_monitor = monitor.stage("branches", 0.8, 1.0);
-  PruneOptions prune;
-  prune.min_component = strokes && !options.automatic ? 0.0 : options.min_length;
-  prune.weak_spur = options.min_length;
-  TraceGraph graph = pruned(without_weak_edges(graph_from_lines(lines), evidence, drawn), evidence.radius, prune);
-  if (graph.edges.empty()) {
-    throw InputError(photo.name, "no branches found; try --polarity, --sensitivity, --max-radius, or give points with "
-                                 "--through");
-  }
-  for (TraceEdge& e : graph.edges) e.confidence = confidence_of(e, evidence, drawn);
-  measure_graph(graph, evidence, options);
-  graph_monitor.report(0.8);
+  const TraceGraph graph = traced_graph(photo, evidence, excluded, options, monitor);
   TreeOptions tree;
-  tree.roots = root;
-  if (root.empty() && strokes && !options.automatic) tree.roots = {parse_strokes("through", options.through).front().front()};
-  Annotation annotation = annotation_from_graph(graph, photo.color.size(), tree);
+  tree.roots = parse_points("root", options.root);
+  if (tree.roots.empty() && !by_itself) tree.roots = {parse_strokes("through", options.through).front().front()};
+  const Monitor branches_monitor = monitor.stage("branches", 0.95, 1.0);
+  std::optional<Landmark> landmark;
+  if (find_regions && tree.roots.empty()) landmark = find_landmark(photo.color, graph, excluded, branches_monitor);
+  Annotation annotation = landmark ? rooted_on(*landmark, graph, photo.color.size(), regions)
+                                   : annotation_from_graph(graph, photo.color.size(), tree);
   calm_radii(annotation);
   annotation = thinned_out(annotation);
   sign_annotation(annotation, photo, evidence);
-  annotation.regions = regions;
+  annotation.regions = std::move(regions);
   return annotation;
 }
 

@@ -203,6 +203,7 @@ TraceGraph without_passing_nodes(const TraceGraph& graph) {
     const TraceEdge second = out.edges[b].from == static_cast<int>(n) ? out.edges[b] : reversed(out.edges[b]);
     const double la = line_length(first.line), lb = line_length(second.line);
     first.confidence = (first.confidence * la + second.confidence * lb) / std::max(la + lb, 1e-9);
+    first.strength = (first.strength * la + second.strength * lb) / std::max(la + lb, 1e-9);
     first.line.insert(first.line.end(), second.line.begin() + 1, second.line.end());
     if (!first.radii.empty()) first.radii.insert(first.radii.end(), second.radii.begin() + 1, second.radii.end());
     first.to = second.to;

@@ -14,6 +14,7 @@ struct TraceEdge {
   std::vector<Vec2> line;        // px, from node to node, both included
   std::vector<double> radii;     // px, one per point; empty until measured
   double confidence = 1.0;       // 0..1
+  double strength = 0.0;         // mean ridge strength along it
 };
 
 struct TraceGraph {

@@ -14,6 +14,7 @@ namespace ramify {
 namespace {
 
 constexpr double kRootReach = 0.05;    // of the larger side: how far from a given root the structure may be
+constexpr double kWideParent = 3.0;    // px of radius: thinner parents bend no child
 constexpr std::size_t kMostRoots = 48; // ends tried as roots, the thickest ones
 
 // Component of every node (the smallest node index in it).
@@ -168,6 +169,7 @@ class BranchBuilder {
         return;
       }
       clear_start(radii, line, *parent);
+      cut = straightened_start(line, radii, cut, branch.parent);
       line.erase(line.begin(), line.begin() + cut);
       radii.erase(radii.begin(), radii.begin() + cut);
     }
@@ -208,6 +210,32 @@ class BranchBuilder {
       point_of_[place][k] = BranchPoint{parent.branch, offset + point};
       if (point > 0) at_node_.emplace_back(s.nodes[k], *point_of_[place][k]);
     }
+  }
+
+  // The middle line of an area enters a wide parent at a right angle. Where the child's own course, read once it is clear
+  // of the rim, meets the parent's middle nearby, it starts there, and its bent first piece goes. Returns the first point
+  // kept.
+  int straightened_start(const std::vector<Vec2>& line, const std::vector<double>& radii, int cut,
+                         std::optional<BranchPoint>& at) const {
+    const AnnotatedBranch& b = annotation_.branches[at->branch];
+    const double wide = b.radii[at->point];
+    const int n = static_cast<int>(line.size()), clear = cut + static_cast<int>(1.5 * radii[cut]);
+    const int ahead = clear + std::max(8, static_cast<int>(2.0 * radii[cut]));
+    if (wide < kWideParent || ahead >= n) return cut;
+    const Vec2 way = (line[ahead] - line[clear]).normalized();
+    BranchPoint best = *at;
+    double nearest = 2.0;
+    for (int i = 0; i < static_cast<int>(b.points.size()); ++i) {
+      const Vec2 back = line[clear] - b.points[i];
+      if (back.norm() > 3.0 * wide + (line[clear] - line[cut]).norm() || back.dot(way) <= 0.0) continue;
+      const double beside = std::abs(back.dot(perpendicular(way)));
+      if (beside >= nearest) continue;
+      nearest = beside;
+      best.point = i;
+    }
+    if (best.point == at->point) return cut;
+    at = best;
+    return clear;
   }
 
   // How many points from the start lie within `share` of the parent's radius of its middle line.

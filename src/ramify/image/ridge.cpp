@@ -76,15 +76,15 @@ float bilinear(const ScalarImage& image, double x, double y) {
 }
 
 struct ScaleResponse {
-  ScalarImage sato, strength, frangi_ratio, structure;
+  ScalarImage sato, strength;
   VectorImage tangent;
 };
 
 // One scale on one picture; sigma in px of that picture.
 ScaleResponse respond(const ScalarImage& picture, double sigma, bool bright) {
   const ScalarImage smooth = gaussian_filter(picture, sigma);
-  ScaleResponse r{ScalarImage(picture.size()), ScalarImage(picture.size()), ScalarImage(picture.size()),
-                  ScalarImage(picture.size()), VectorImage(picture.size(), Eigen::Vector2f(1, 0))};
+  ScaleResponse r{ScalarImage(picture.size()), ScalarImage(picture.size()),
+                  VectorImage(picture.size(), Eigen::Vector2f(1, 0))};
   const float sign = bright ? -1.0f : 1.0f, norm = static_cast<float>(sigma * sigma);
   parallel_for(picture.height(), [&](int y) {
     for (int x = 0; x < picture.width(); ++x) {
@@ -109,8 +109,6 @@ ScaleResponse respond(const ScalarImage& picture, double sigma, bool bright) {
       const float balance = high > 0.0f ? std::min(1.0f, 2.5f * low / high) : 0.0f;
       r.sato(x, y) = across;
       r.strength(x, y) = across * balance;
-      r.frangi_ratio(x, y) = std::abs(along) / across;
-      r.structure(x, y) = std::sqrt(across * across + along * along);
       r.tangent(x, y) = Eigen::Vector2f(-normal.y(), normal.x());
     }
   }, 16);
@@ -127,8 +125,7 @@ ScalarImage halved(const ScalarImage& picture) {
 }
 
 // Keeps the stronger response; `step` maps picture pixels to the reduced ones.
-void keep_stronger(RidgeField& field, ScalarImage& ratio, ScalarImage& structure, const ScaleResponse& r, int step,
-                   double sigma) {
+void keep_stronger(RidgeField& field, const ScaleResponse& r, int step, double sigma) {
   parallel_for(field.sato.height(), [&](int y) {
     for (int x = 0; x < field.sato.width(); ++x) {
       const double u = static_cast<double>(x) / step, v = static_cast<double>(y) / step;
@@ -140,8 +137,6 @@ void keep_stronger(RidgeField& field, ScalarImage& ratio, ScalarImage& structure
       field.strength(x, y) = strength;
       field.sigma(x, y) = static_cast<float>(sigma);
       field.tangent(x, y) = r.tangent.clamped(nx, ny);
-      ratio(x, y) = r.frangi_ratio.clamped(nx, ny);
-      structure(x, y) = r.structure.clamped(nx, ny);
     }
   }, 16);
 }
@@ -154,9 +149,8 @@ ScalarImage gaussian_filter(const ScalarImage& picture, double sigma, int order_
 
 RidgeField ridge_field(const ScalarImage& picture, const RidgeOptions& options, const Monitor& monitor) {
   const Size size = picture.size();
-  RidgeField field{ScalarImage(size), ScalarImage(size), ScalarImage(size),
-                   ScalarImage(size, static_cast<float>(options.min_sigma)), VectorImage(size, Eigen::Vector2f(1, 0))};
-  ScalarImage ratio(size, 1.0f), structure(size);
+  RidgeField field{ScalarImage(size), ScalarImage(size), ScalarImage(size, static_cast<float>(options.min_sigma)),
+                   VectorImage(size, Eigen::Vector2f(1, 0))};
   ScalarImage level = picture;
   int step = 1;
   double carried = 0.0;  // px of the level: smoothing already in it
@@ -169,13 +163,7 @@ RidgeField ridge_field(const ScalarImage& picture, const RidgeOptions& options, 
     }
     const double wanted = sigma / step;
     const double missing = std::sqrt(std::max(wanted * wanted - carried * carried, 0.25));
-    keep_stronger(field, ratio, structure, respond(level, missing, options.bright), step, sigma);
-  }
-  const float largest = *std::max_element(structure.pixels().begin(), structure.pixels().end());
-  const float c = std::max(0.5f * largest, 1e-6f);  // Frangi et al. 1998: half the largest structureness
-  for (std::size_t i = 0; i < structure.pixels().size(); ++i) {
-    const float s = structure.pixels()[i], q = ratio.pixels()[i];
-    field.frangi.pixels()[i] = std::exp(-2.0f * q * q) * (1.0f - std::exp(-0.5f * s * s / (c * c)));
+    keep_stronger(field, respond(level, missing, options.bright), step, sigma);
   }
   return field;
 }

@@ -20,7 +20,6 @@ struct RidgeOptions {
 struct RidgeField {
   ScalarImage strength;  // Sato response weighted by two-sidedness, in units of the picture's contrast, >= 0
   ScalarImage sato;      // Sato response alone: does not fade at junctions
-  ScalarImage frangi;    // Frangi vesselness 0..1 at the same scale: cleaner on noise, gaps at junctions
   ScalarImage sigma;     // px, scale of the strongest response: a first estimate of the half width
   VectorImage tangent;   // unit vector along the line, sign arbitrary
 };

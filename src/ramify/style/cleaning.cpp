@@ -79,7 +79,9 @@ double bend_amplitude(const std::vector<std::vector<Vec2>>& curves, double step,
 
 std::vector<CleanBranch> clean_branches(const Skeleton& skeleton, const std::vector<NodePlace>& places, const Monitor& monitor) {
   const auto lies_on = [&](int node, NodePlace place) { return !places.empty() && places[static_cast<std::size_t>(node)] == place; };
-  const RootedGraph graph = tie_loose_trees(skeleton, monitor);
+  std::vector<bool> anchored;
+  for (const NodePlace place : places) anchored.push_back(place == NodePlace::Landmark);
+  const RootedGraph graph = tie_loose_trees(skeleton, anchored, monitor);
   std::vector<CleanBranch> branches;
   std::vector<int> kept(graph.runs.size(), kNone);
   for (std::size_t r = 0; r < graph.runs.size(); ++r) {

@@ -45,9 +45,9 @@ struct Tie {
   int onto;    // node of another tree
 };
 
-// The nearest node of another tree for every end of a small tree.
+// The nearest node of another tree for every end of a small tree that is not anchored.
 std::vector<Tie> find_ties(const Skeleton& skeleton, const Trees& trees, const std::vector<std::vector<int>>& near,
-                           const Monitor& monitor) {
+                           const std::vector<bool>& anchored, const Monitor& monitor) {
   CapsuleIndex index(Vec2::Zero(), Vec2(skeleton.size.width, skeleton.size.height), 32.0);
   for (int i = 0; i < skeleton.count(); ++i) {
     const Node& node = skeleton[i];
@@ -57,6 +57,7 @@ std::vector<Tie> find_ties(const Skeleton& skeleton, const Trees& trees, const s
   for (int i = 0; i < skeleton.count(); ++i) {
     if (i % 1024 == 0) monitor.check();
     if (near[i].size() > 1 || trees.size[trees.tree[i]] >= kLooseShare * skeleton.count()) continue;
+    if (!anchored.empty() && anchored[trees.root[trees.tree[i]]]) continue;
     const Vec2 end = skeleton[i].xy();
     const double radius = skeleton[i].radius;
     const Vec2 reach = Vec2::Constant(radius + kTieReach);
@@ -178,7 +179,7 @@ int find_group(std::vector<int>& group, int i) {
 
 }  // namespace
 
-RootedGraph tie_loose_trees(const Skeleton& skeleton, const Monitor& monitor) {
+RootedGraph tie_loose_trees(const Skeleton& skeleton, const std::vector<bool>& anchored, const Monitor& monitor) {
   std::vector<std::vector<int>> near(skeleton.count());
   for (int i = 0; i < skeleton.count(); ++i) {
     if (skeleton[i].parent == kNone) continue;
@@ -190,7 +191,7 @@ RootedGraph tie_loose_trees(const Skeleton& skeleton, const Monitor& monitor) {
   std::vector<int> group(trees.size.size());
   std::iota(group.begin(), group.end(), 0);
   std::vector<bool> turned(group.size(), false);
-  for (const Tie& tie : find_ties(skeleton, trees, near, monitor)) {
+  for (const Tie& tie : find_ties(skeleton, trees, near, anchored, monitor)) {
     const int loose = find_group(group, trees.tree[tie.end]), host = find_group(group, trees.tree[tie.onto]);
     if (loose == host) continue;
     near[tie.end].push_back(tie.onto);

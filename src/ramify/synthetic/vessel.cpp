@@ -107,6 +107,15 @@ Region field_outside(Size size, const Eye& eye) {
   return region;
 }
 
+// Where all vessels come from; the rim's softness is part of it.
+Region disc_landmark(Size size, const Eye& eye) {
+  Region region;
+  region.role = RegionRole::Landmark;
+  for (int i = 0; i < 48; ++i)
+    region.polygon.push_back(eye.disc + (eye.disc_radius + 4.0 * scale_of(size)) * direction_of(2.0 * kPi * i / 48.0));
+  return region;
+}
+
 }  // namespace
 
 Scene draw_vessel(Size size, const Rng& rng, const Monitor& monitor) {
@@ -145,6 +154,7 @@ Scene draw_vessel(Size size, const Rng& rng, const Monitor& monitor) {
     return mix(Rgb{0.012f, 0.008f, 0.008f}, light * color, seen);
   });
   scene.regions.push_back(field_outside(size, eye));
+  scene.regions.push_back(disc_landmark(size, eye));
   scene.color = photograph(scene.color, {0.5, 0.009, 0.55, 0.5, 0.0}, rng.child("camera"));
   return scene;
 }
