@@ -12,6 +12,7 @@
 namespace ramify {
 namespace {
 
+constexpr double kBridgeCost = 0.35;
 constexpr int kSmallestHole = 60;  // px: smaller holes in where lines may run are noise, not loops
 
 // Pixels stronger than `low` that are not weaker than both neighbours across the line.
@@ -180,8 +181,8 @@ Mask bridge_gaps(const RidgeEvidence& e, const LatticeCosts& costs, const Mask& 
                                     {start.x - reach, start.y - reach, start.x + reach, start.y + reach}, monitor);
     const double way = path ? line_length(pixel_points(path->pixels)) : 0.0;
     if (!path || way > 1.4 * reach) continue;
-    // Mean cost below half of what plain background costs (about 1024 x 1.5 with the turn factor).
-    if (static_cast<double>(path->cost) / std::max(way, 1.0) > 0.5 * 1024.0) continue;
+    // Mean cost well below what plain background costs (about 1024 x 1.5 with the turn factor).
+    if (static_cast<double>(path->cost) / std::max(way, 1.0) > kBridgeCost * 1024.0) continue;
     for (const Pixel& p : path->pixels) out(p.x, p.y) = 255;
   }
   return out;

@@ -15,7 +15,7 @@ constexpr int kFewestCorners = 3;
 constexpr double kLeastShare = 0.005;  // of the picture: a smaller surround does no harm
 constexpr double kWhole = 0.98;        // of what is not surround lies in one piece
 constexpr double kConvex = 0.96;       // area of the field over that of its convex hull
-constexpr int kRim = 3;                // px of the field's rim that still fade into the black
+constexpr double kRim = 3.0;           // px of the field's rim that still fade into the black
 constexpr int kSpacing = 8;            // px between points of the polygon
 
 double cross(const Vec2& o, const Vec2& a, const Vec2& b) {
@@ -98,7 +98,7 @@ std::optional<Region> dark_surround(const ColorImage& photo) {
     largest = area;
     outline = contour.points;
   }
-  if (largest < kWhole * inside || largest < kConvex * polygon_area(convex_hull(outline))) return std::nullopt;
+  if (outline.size() < 3 || largest < kWhole * inside || largest < kConvex * polygon_area(convex_hull(outline))) return std::nullopt;
   Region region{RegionRole::Outside, {}};
   const double right = photo.width() - 0.5, bottom = photo.height() - 0.5;
   region.polygon = {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}, {-0.5, -0.5}};

@@ -11,7 +11,7 @@ namespace ramify {
 namespace {
 
 constexpr double kNoiseFactor = 8.0;  // a line starts at this many times the median response
-constexpr double kGlowFactor = 14.0;  // where branches glow: most of the sky is black and its median response tiny
+constexpr double kGlowFactor = 20.0;  // where branches glow: most of the sky is black and its median response tiny
 constexpr double kLargestShare = 0.4;  // of the picture: thicker classes are background
 constexpr double kLongest = 10.0;      // smallest area of a thick branch over its largest radius squared (a disc has 3.1)
 constexpr double kBankReach = 3.0;    // px to both sides of a rim

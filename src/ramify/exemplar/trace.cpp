@@ -16,6 +16,7 @@
 #include "ramify/exemplar/trace_tree.h"
 #include "ramify/exemplar/traced_line.h"
 #include "ramify/exemplar/width_probe.h"
+#include "ramify/image/filter.h"
 #include "ramify/skeleton/skeletonize.h"
 
 namespace ramify {
@@ -23,7 +24,8 @@ namespace {
 
 constexpr double kSnap = 8.0;       // px, how far a given point may be moved to the ridge (ALGORITHMS 3.1-4)
 constexpr double kAttach = 16.0;    // px, strokes starting or ending this near to another one join it
-constexpr double kLandmarkCut = 0.8;  // of a found landmark's radius: there branches start
+constexpr double kLandmarkCut = 0.35; // of a found landmark's radius: there branches start
+constexpr double kRimFade = 5.0;      // px: along a field's rim the light fades, which is no line
 constexpr double kStaircase = 2.0;  // px, smoothing that removes the pixel staircase (PICTURES 10)
 
 Mask excluded_pixels(const Photo& photo, const std::vector<Region>& regions) {
@@ -197,7 +199,7 @@ TraceGraph traced_graph(const Photo& photo, const RidgeEvidence& evidence, const
   return graph;
 }
 
-// Branches that start within a found landmark, near its rim; what the photo shows further inside stays the landmark's.
+// Branches that start within a found landmark, around its middle: further inside they overlap.
 Annotation rooted_on(const Landmark& landmark, const TraceGraph& graph, Size size, std::vector<Region>& regions) {
   std::vector<int> ends;
   const TraceGraph cut = cut_at(graph, landmark.centre, kLandmarkCut * landmark.radius, ends);
@@ -303,7 +305,8 @@ Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Mo
   if (find_regions) {
     if (auto surround = dark_surround(photo.color)) regions.push_back(std::move(*surround));
   }
-  const Mask excluded = excluded_pixels(photo, regions);
+  Mask excluded = excluded_pixels(photo, regions);
+  if (find_regions && !regions.empty()) excluded = dilate(excluded, kRimFade);
   const RidgeEvidence evidence =
       gather_evidence(photo.color, excluded, options, monitor.stage("ridges", 0.0, 0.5));
   const TraceGraph graph = traced_graph(photo, evidence, excluded, options, monitor);

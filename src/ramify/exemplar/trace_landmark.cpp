@@ -13,7 +13,8 @@ namespace {
 constexpr double kSizes[] = {0.035, 0.045, 0.058, 0.075};  // radius over the picture's smaller side
 constexpr double kGrid = 0.012;       // spacing of the places tried, over the smaller side
 constexpr double kOdd = 5.0;          // times the usual deviation (median absolute) of spots of that size
-constexpr double kThickShare = 0.5;   // of the traced length is thinner than branches that count
+constexpr double kThickShare = 0.65;  // of the traced length is thinner than branches that count
+constexpr double kThickest = 0.9;     // the same for the thickest ones, two of which must come from it
 constexpr double kOutward = 0.6;      // cosine between a branch and the way out
 constexpr int kFewestBranches = 4;
 constexpr int kFewestQuarters = 3;
@@ -104,17 +105,17 @@ Mask hidden_pixels(const ColorImage& photo, const TraceGraph& graph, const Mask&
   return hidden;
 }
 
-double usual_radius(const TraceGraph& graph) {
+double radius_quantile(const TraceGraph& graph, double share) {
   std::vector<double> radii;
   for (const TraceEdge& e : graph.edges) radii.insert(radii.end(), e.radii.begin(), e.radii.end());
-  const auto at = radii.begin() + static_cast<std::ptrdiff_t>(kThickShare * static_cast<double>(radii.size() - 1));
+  const auto at = radii.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(radii.size() - 1));
   std::nth_element(radii.begin(), at, radii.end());
   return *at;
 }
 
 // Sum of the radii of thick branches that cross the circle outwards; 0 when they are too few or all on one side.
-double convergence(const TraceGraph& graph, const Vec2& centre, double reach, double thick) {
-  int count = 0;
+double convergence(const TraceGraph& graph, const Vec2& centre, double reach, double thick, double thickest) {
+  int count = 0, mains = 0;
   std::array<bool, 4> quarter{};
   double sum = 0.0;
   for (const TraceEdge& e : graph.edges) {
@@ -124,11 +125,12 @@ double convergence(const TraceGraph& graph, const Vec2& centre, double reach, do
       const Vec2 out = (e.line[i] - centre).normalized();
       if (std::abs(tangent_at(e.line, static_cast<int>(i), 8).dot(out)) < kOutward) continue;
       ++count;
+      mains += e.radii[i] >= thickest;
       quarter[(out.x() > 0.0) + 2 * (out.y() > 0.0)] = true;
       sum += e.radii[i];
     }
   }
-  return count >= kFewestBranches && std::count(quarter.begin(), quarter.end(), true) >= kFewestQuarters ? sum : 0.0;
+  return count >= kFewestBranches && mains >= 2 && std::count(quarter.begin(), quarter.end(), true) >= kFewestQuarters ? sum : 0.0;
 }
 
 }  // namespace
@@ -137,7 +139,8 @@ std::optional<Landmark> find_landmark(const ColorImage& photo, const TraceGraph&
                                       const Monitor& monitor) {
   if (graph.edges.empty()) return std::nullopt;
   const Sums sums = sums_beside(photo, hidden_pixels(photo, graph, excluded));
-  const double thick = usual_radius(graph), side = std::min(photo.width(), photo.height());
+  const double thick = radius_quantile(graph, kThickShare), thickest = radius_quantile(graph, kThickest);
+  const double side = std::min(photo.width(), photo.height());
   const double step = std::max(2.0, kGrid * side);
   std::optional<Landmark> best;
   double best_score = 0.0;
@@ -160,7 +163,8 @@ std::optional<Landmark> find_landmark(const ColorImage& photo, const TraceGraph&
     const double spread = median_of(usual) + 1e-3;
     for (const auto& [odd, centre] : places) {
       if (odd < middle + kOdd * spread) continue;
-      const double score = odd * convergence(graph, centre, 1.3 * radius, thick);
+      const double meeting = convergence(graph, centre, 1.3 * radius, thick, thickest);
+      const double score = odd * meeting * meeting;
       if (score <= best_score) continue;
       best_score = score;
       best = Landmark{centre, radius};

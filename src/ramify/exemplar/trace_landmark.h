@@ -16,7 +16,8 @@ struct Landmark {
 };
 
 // A compact spot whose colour is odd against its surround, far more than spots of that size are in this photo, and whose
-// rim at least four of the thicker branches cross outwards, into three of the four quarters at least. Colour is looked at
+// rim at least four of the thicker branches cross outwards, into three of the four quarters at least, two of them of the
+// thickest. Colour is looked at
 // beside the branches only. Edges must be measured. excluded: may be empty.
 std::optional<Landmark> find_landmark(const ColorImage& photo, const TraceGraph& graph, const Mask& excluded,
                                       const Monitor& monitor = {});

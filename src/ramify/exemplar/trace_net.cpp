@@ -59,7 +59,7 @@ double class_cut(const TraceGraph& graph) {
 }  // namespace
 
 TraceGraph without_net(const TraceGraph& graph) {
-  if (mesh_count(graph) < kMeshShare * static_cast<double>(graph.edges.size())) return graph;
+  if (graph.edges.size() < 2 || mesh_count(graph) < kMeshShare * static_cast<double>(graph.edges.size())) return graph;
   const double cut = class_cut(graph);
   if (cut <= 0.0) return graph;
   std::vector<bool> strong(graph.nodes.size(), false);
