@@ -291,7 +291,7 @@ std::vector<OptionField> describe(TraceOptions& o) {
       flag("straight", o.straight, "With --through: follow the points alone, not the picture."),
       text("root", o.root, "Where the structure starts: \"x,y\" in px, or several points."),
       flag("find-regions", o.find_regions,
-           "Without --regions: take a black surround for outside, a spot where thick branches meet for a landmark."),
+           "Without --regions: take a black surround for outside, and within it a spot where thick branches meet for a landmark."),
       text("regions", o.regions, "Polygons \"outside: x,y x,y x,y; keep: …; ignore: …; landmark: …\" in px."),
   };
 }
@@ -315,7 +315,8 @@ Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Mo
   if (tree.roots.empty() && !by_itself) tree.roots = {parse_strokes("through", options.through).front().front()};
   const Monitor branches_monitor = monitor.stage("branches", 0.95, 1.0);
   std::optional<Landmark> landmark;
-  if (find_regions && tree.roots.empty()) landmark = find_landmark(photo.color, graph, excluded, branches_monitor);
+  const bool field = find_regions && !regions.empty();  // elsewhere clouds and knots of water look like landmarks
+  if (field && tree.roots.empty()) landmark = find_landmark(photo.color, graph, excluded, branches_monitor);
   Annotation annotation = landmark ? rooted_on(*landmark, graph, photo.color.size(), regions)
                                    : annotation_from_graph(graph, photo.color.size(), tree);
   calm_radii(annotation);

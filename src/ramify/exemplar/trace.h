@@ -31,12 +31,13 @@ struct TraceOptions {
   bool straight = false;       // with `through`: follow the points alone, not the picture
   std::string root;            // px "x,y x,y …": where the structure starts
   std::string regions;         // "outside: x,y x,y x,y …; keep: …; ignore: …; landmark: …" polygons, px
-  bool find_regions = true;    // without `regions`: a black surround is outside, a spot where thick branches meet a landmark
+  bool find_regions = true;    // without `regions`: a black surround is outside, a spot in its field where thick branches
+                               // meet a landmark
 };
 std::vector<OptionField> describe(TraceOptions& options);
 
-// Nothing is traced in outside, ignore and keep regions. A landmark found without help is where the branches start. Throws InputError when no branch is found, OptionError when an
-// option cannot be read.
+// Nothing is traced in outside, ignore and keep regions. A landmark found without help is where the branches start.
+// Throws InputError when no branch is found, OptionError when an option cannot be read.
 Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Monitor& monitor = {});
 
 // The same branches with radii measured again (and points re-centred by at most half a radius).
