@@ -3,6 +3,7 @@
 // within which the order is of no consequence because every edge leads out of it. Private to the layer.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -60,16 +61,18 @@ class BucketQueue {
   std::vector<Item> batch_;
 };
 
-// Buckets by the highest bit in which a key differs from the last one handed out (Ahuja, Mehlhorn, Orlin and Tarjan 1990).
-// Keys: unsigned, or the bits of doubles that are not negative. No pushed key may be below the last batch's.
+// Buckets by the highest octal digit in which a key differs from the last one handed out, and that digit's value (Ahuja,
+// Mehlhorn, Orlin and Tarjan 1990). Keys: unsigned, or the bits of doubles that are not negative. The lowest `shift` bits
+// are not ordered: every edge must add at least 2^shift. No pushed key may be below the last batch's.
 template <class KeyType>
 class RadixQueue {
  public:
   using Key = KeyType;
   using Item = QueueItem<Key>;
+  explicit RadixQueue(int shift) : shift_(shift) {}
 
   void push(Key key, std::uint32_t node) {
-    buckets_[std::bit_width(key ^ last_)].push_back({key, node});
+    buckets_[bucket_of(key)].push_back({key, node});
     ++count_;
   }
   bool empty() const { return count_ == 0; }
@@ -80,7 +83,7 @@ class RadixQueue {
     count_ -= batch_.size();
     return batch_;
   }
-  Key horizon() const { return last_; }
+  Key horizon() const { return last_ << shift_; }
   template <class F>
   void for_each(F&& f) const {
     for (const auto& bucket : buckets_) {
@@ -89,19 +92,28 @@ class RadixQueue {
   }
 
  private:
+  static constexpr int kDigits = (std::numeric_limits<Key>::digits + 2) / 3;
+
+  std::size_t bucket_of(Key key) const {
+    const Key high = key >> shift_;
+    if (high == last_) return 0;
+    const int digit = (std::bit_width(high ^ last_) - 1) / 3;
+    return 1 + static_cast<std::size_t>(8 * digit) + ((high >> (3 * digit)) & 7);
+  }
   void refill() {
-    int lowest = 1;
+    std::size_t lowest = 1;
     while (buckets_[lowest].empty()) ++lowest;
     std::vector<Item>& from = buckets_[lowest];
     last_ = std::numeric_limits<Key>::max();
-    for (const Item& item : from) last_ = item.key < last_ ? item.key : last_;
-    for (const Item& item : from) buckets_[std::bit_width(item.key ^ last_)].push_back(item);
+    for (const Item& item : from) last_ = std::min<Key>(last_, item.key >> shift_);
+    for (const Item& item : from) buckets_[bucket_of(item.key)].push_back(item);
     from.clear();
   }
 
+  int shift_;
   Key last_ = 0;
   std::size_t count_ = 0;
-  std::array<std::vector<Item>, std::numeric_limits<Key>::digits + 1> buckets_;
+  std::array<std::vector<Item>, 1 + 8 * kDigits> buckets_;
   std::vector<Item> batch_;
 };
 

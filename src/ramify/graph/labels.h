@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "ramify/graph/plan.h"
 #include "ramify/graph/search.h"
 
 namespace ramify {
@@ -19,6 +20,7 @@ inline constexpr std::uint32_t kTickCeiling = kFar - (1u << 30);
 struct SumLabels {
   std::uint32_t* sum;
   using Label = std::uint32_t;
+  static constexpr bool kCostly = false;
   std::uint32_t key(std::uint32_t node) const { return sum[node]; }
   static std::uint32_t key_of(Label label) { return label; }
   Label extended(std::uint32_t node, const Edge& edge) const { return sum[node] + edge.full; }
@@ -29,22 +31,18 @@ struct SumLabels {
 
 // Partial: peak first, then sum. Forbidden nodes have peak and sum 0, so that nothing is offered to them.
 struct PartialLabels {
-  std::uint32_t* sum;
-  std::uint32_t* peak;
-  struct Label {
-    std::uint32_t sum, peak;
-  };
+  SumAndPeak* pair;
+  using Label = SumAndPeak;
+  static constexpr bool kCostly = false;  // extending takes longer than a mispredicted branch
   static std::uint64_t key_of(Label label) { return (static_cast<std::uint64_t>(label.peak) << 32) | label.sum; }
-  std::uint64_t key(std::uint32_t node) const { return key_of({sum[node], peak[node]}); }
+  std::uint64_t key(std::uint32_t node) const { return key_of(pair[node]); }
   Label extended(std::uint32_t node, const Edge& edge) const {
-    return {sum[node] + edge.full, peak[node] > edge.plain ? peak[node] : edge.plain};
+    const Label own = pair[node];
+    return {own.sum + edge.full, own.peak > edge.plain ? own.peak : edge.plain};
   }
-  void set(std::uint32_t node, Label label) {
-    sum[node] = label.sum;
-    peak[node] = label.peak;
-  }
-  void clear(std::uint32_t node) { sum[node] = peak[node] = kFar; }
-  bool overflows(std::uint32_t node) const { return sum[node] > kTickCeiling; }
+  void set(std::uint32_t node, Label label) { pair[node] = label; }
+  void clear(std::uint32_t node) { pair[node] = {kFar, kFar}; }
+  bool overflows(std::uint32_t node) const { return pair[node].sum > kTickCeiling; }
 };
 
 // Mix: ratio * peak + sum, which orders as peak_share * peak + sum_share * sum does.
@@ -54,7 +52,7 @@ struct MixLabels : PartialLabels {
   std::uint64_t key_of(Label label) const {
     return label.sum == kFar ? kFarKey : static_cast<std::uint64_t>(ratio * label.peak) + label.sum;
   }
-  std::uint64_t key(std::uint32_t node) const { return key_of({sum[node], peak[node]}); }
+  std::uint64_t key(std::uint32_t node) const { return key_of(pair[node]); }
 };
 
 // Power: the sum of (edge / unit)^p. Positive doubles order as their bits do.
@@ -63,6 +61,7 @@ struct PowerLabels {
   double power;
   double unit_per_tick;
   using Label = double;
+  static constexpr bool kCostly = true;
   static std::uint64_t key_of(Label label) { return std::bit_cast<std::uint64_t>(label); }
   std::uint64_t key(std::uint32_t node) const { return key_of(sum[node]); }
   Label extended(std::uint32_t node, const Edge& edge) const { return sum[node] + std::pow(edge.full * unit_per_tick, power); }

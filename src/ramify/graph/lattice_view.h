@@ -2,7 +2,9 @@
 // A lattice as the search sees it: weights in ticks, edges by offset. Private to the layer.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -17,14 +19,14 @@ namespace ramify {
 struct WholeTicks {
   const std::uint16_t* weight;
   std::uint32_t scale;
-  static constexpr bool kPerEdge = false;
+  static constexpr bool kPerEdge = false, kHashed = false;
   std::uint32_t half(std::uint32_t node) const { return weight[node] * scale; }
   std::uint32_t half_of(double w) const { return static_cast<std::uint32_t>(w) * scale; }
 };
 struct RealTicks {
   const float* weight;
   float scale;
-  static constexpr bool kPerEdge = false;
+  static constexpr bool kPerEdge = false, kHashed = false;
   std::uint32_t half(std::uint32_t node) const { return rounded(weight[node]); }
   std::uint32_t half_of(double w) const { return rounded(static_cast<float>(w)); }
   std::uint32_t rounded(float w) const {
@@ -36,7 +38,7 @@ template <bool PerEdge>
 struct HashedTicks {
   std::uint64_t seed;
   std::uint32_t base, spread;
-  static constexpr bool kPerEdge = PerEdge;
+  static constexpr bool kPerEdge = PerEdge, kHashed = true;
   std::uint32_t from(std::uint32_t hash) const { return base + static_cast<std::uint32_t>((static_cast<std::uint64_t>(hash) * spread) >> 32); }
   std::uint32_t half(std::uint32_t node) const { return from(lattice_hash(seed, node)); }
   std::uint32_t half(std::uint32_t a, std::uint32_t b) const { return from(edge_hash(seed, a, b)); }
@@ -46,12 +48,13 @@ template <int kSteps, class Ticks>
 class LatticeView {
  public:
   using Link = std::uint8_t;  // the step from a node to its parent
+  static constexpr bool kCostlyEdges = Ticks::kHashed;  // a hash takes longer than a mispredicted branch
   static constexpr Link kSourceLink = kSource, kForbiddenLink = kForbidden, kUnreachedLink = kUnreached;
 
   // `links` tell which nodes are forbidden, where corners may not be cut.
   LatticeView(const Lattice& lattice, const Ticks& ticks, const Link* links)
       : ticks_(ticks), links_(lattice.cut_corners ? nullptr : links), width_(lattice.width), height_(lattice.height),
-        depth_(lattice.depth), from_share_(lattice.edge_cost == EdgeCost::Mean ? 1 : 0) {
+        depth_(lattice.depth), row_share_(~0ull / static_cast<std::uint64_t>(lattice.width) + 1), from_share_(lattice.edge_cost == EdgeCost::Mean ? 1 : 0) {
     const auto steps = lattice_steps(lattice.connectivity);
     for (int k = 0; k < kSteps; ++k) {
       steps_[k] = steps[k];
@@ -74,26 +77,35 @@ class LatticeView {
     return out;
   }
 
-  template <class F>
-  void visit(std::uint32_t node, F&& f) const {
-    const std::uint32_t row = node / static_cast<std::uint32_t>(width_);
-    const int x = static_cast<int>(node - row * width_);
-    const int y = kSteps <= 8 && kSteps != 6 ? static_cast<int>(row) : static_cast<int>(row % height_);
-    const int z = kSteps <= 8 && kSteps != 6 ? 0 : static_cast<int>(row / height_);
+  template <class Test, class Take>
+  void visit(std::uint32_t node, const Test& test, const Take& take) const {
     const std::uint32_t own = Ticks::kPerEdge ? 0 : from_share_ * ticks_.half(node);
-    const bool inner = x > 0 && y > 0 && x + 1 < width_ && y + 1 < height_ &&
-                       (kSteps == 4 || kSteps == 8 || (z > 0 && z + 1 < depth_));
-    for (int k = 0; k < kSteps; ++k) {
-      if (!inner && !inside(x + steps_[k].dx, y + steps_[k].dy, z + steps_[k].dz)) continue;
-      if (links_ && k >= first_diagonal() && cuts_corner(node, k)) continue;
+    const std::uint32_t row = row_of(node), x = node - row * width_;
+    std::uint32_t chosen = 0;
+    if (is_inner(x, row) && !links_) {
+      for (int k = 0; k < kSteps; ++k) {
+        const std::uint32_t to = node + offset_[k];
+        chosen |= static_cast<std::uint32_t>(test(to, [&] { return edge(node, to, own, k); })) << k;
+      }
+    } else {
+      const int y = kPlane ? static_cast<int>(row) : static_cast<int>(row % height_), z = kPlane ? 0 : static_cast<int>(row / height_);
+      for (int k = 0; k < kSteps; ++k) {
+        if (!inside(static_cast<int>(x) + steps_[k].dx, y + steps_[k].dy, z + steps_[k].dz)) continue;
+        if (links_ && k >= kFirstDiagonal && cuts_corner(node, k)) continue;
+        const std::uint32_t to = node + offset_[k];
+        chosen |= static_cast<std::uint32_t>(test(to, [&] { return edge(node, to, own, k); })) << k;
+      }
+    }
+    for (; chosen; chosen &= chosen - 1) {
+      const int k = std::countr_zero(chosen);
       const std::uint32_t to = node + offset_[k];
-      f(to, static_cast<Link>(k ^ 1), [&] { return edge(node, to, own, k); });
+      take(to, static_cast<Link>(k ^ 1), edge(node, to, own, k));
     }
   }
   std::uint32_t parent(std::uint32_t node, Link link) const { return node + offset_[link]; }
   // Orders all edges: by cost without length, then those along axes before diagonals, then by a hash.
   std::uint64_t unique_key(const Edge& e, std::uint32_t a, std::uint32_t b, Link link) const {
-    const std::uint64_t diagonal = link >= first_diagonal() ? 1u << 31 : 0u;
+    const std::uint64_t diagonal = link >= kFirstDiagonal ? 1u << 31 : 0u;
     return (static_cast<std::uint64_t>(e.plain) << 32) | diagonal | (edge_hash(0, a, b) >> 1);
   }
   // What a source costs: nothing, or its own weight where an edge costs its target's.
@@ -107,8 +119,20 @@ class LatticeView {
   static std::uint32_t scaled(std::uint64_t ticks, std::uint64_t factor) {
     return static_cast<std::uint32_t>((ticks * factor + (1 << 23)) >> 24);
   }
-  static constexpr int first_diagonal() { return kSteps == 4 || kSteps == 8 ? 4 : 6; }
+  static constexpr bool kPlane = kSteps == 4 || kSteps == 8;
+  static constexpr int kFirstDiagonal = kPlane ? 4 : 6;
 
+  std::uint32_t row_of(std::uint32_t node) const {
+    return width_ == 1 ? node : static_cast<std::uint32_t>((static_cast<unsigned __int128>(node) * row_share_) >> 64);
+  }
+  // Whether all neighbours exist.
+  bool is_inner(std::uint32_t x, std::uint32_t row) const {
+    const std::uint32_t w = width_, h = height_;
+    if (x - 1 >= w - 2 || w < 3) return false;
+    if (kPlane) return row - 1 < h - 2 && h >= 3;
+    const std::uint32_t z = row / h, y = row - z * h, d = depth_;
+    return y - 1 < h - 2 && h >= 3 && z - 1 < d - 2 && d >= 3;
+  }
   bool inside(int x, int y, int z) const { return x >= 0 && y >= 0 && z >= 0 && x < width_ && y < height_ && z < depth_; }
 
   Edge edge(std::uint32_t a, std::uint32_t b, std::uint32_t own, int k) const {
@@ -134,6 +158,7 @@ class LatticeView {
   Ticks ticks_;
   const Link* links_;
   int width_, height_, depth_;
+  std::uint64_t row_share_;  // 2^64 / width: a node times this, shifted down, is its row, faster than by a division
   std::uint32_t from_share_;
   std::array<LatticeStep, kSteps> steps_;
   std::array<std::int32_t, kSteps> offset_;

@@ -2,51 +2,19 @@
 #include "ramify/graph/least_cost_path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+
+#include "ramify/graph/labels.h"
 
 namespace ramify {
 namespace {
 
 constexpr int kDx[8] = {1, 1, 0, -1, -1, -1, 0, 1};
 constexpr int kDy[8] = {0, 1, 1, 1, 0, -1, -1, -1};
-constexpr std::uint32_t kFar = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint8_t kNoStep = 255;
 
-// Circular buckets for integer keys whose spread is below the number of buckets (Dial 1969).
-class BucketQueue {
- public:
-  explicit BucketQueue(std::uint32_t largest_step) : buckets_(largest_step + 1) {}
-  void push(std::uint32_t key, int item) {
-    buckets_[key % buckets_.size()].push_back({key, item});
-    ++count_;
-  }
-  bool empty() const { return count_ == 0; }
-  // All items of the lowest key, in the order of their index.
-  std::vector<int> pop_lowest() {
-    while (buckets_[key_ % buckets_.size()].empty()) ++key_;
-    std::vector<int> items;
-    for (const auto& [key, item] : buckets_[key_ % buckets_.size()]) items.push_back(item);
-    count_ -= items.size();
-    buckets_[key_ % buckets_.size()].clear();
-    std::sort(items.begin(), items.end());
-    return items;
-  }
-  std::uint32_t key() const { return key_; }
-
- private:
-  struct Entry {
-    std::uint32_t key;
-    int item;
-  };
-  std::vector<std::vector<Entry>> buckets_;
-  std::uint32_t key_ = 0;
-  std::size_t count_ = 0;
-};
-
-std::uint32_t edge_cost(const LatticeCosts& costs, int x, int y, int k) {
+std::uint32_t step_cost(const LatticeCosts& costs, int x, int y, int k) {
   const int u = x + kDx[k], v = y + kDy[k];
   const double length = k % 2 == 0 ? 1.0 : std::sqrt(2.0);
   double cost = 0.5 * length * (costs.cost(x, y) + costs.cost(u, v));
@@ -66,6 +34,44 @@ PixelBox clipped(PixelBox box, Size size) {
 bool inside(const PixelBox& box, int x, int y) {
   return x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
 }
+
+// The part of the picture inside the box as the search sees it; links are the step that led to a node.
+class BoxView {
+ public:
+  using Link = std::uint8_t;
+  static constexpr bool kCostlyEdges = true;
+  BoxView(const LatticeCosts& costs, const PixelBox& box) : costs_(costs), box_(box), width_(box.right - box.left + 1) {}
+
+  template <class Test, class Take>
+  void visit(std::uint32_t node, const Test& test, const Take& take) const {
+    const int x = static_cast<int>(node) % width_ + box_.left, y = static_cast<int>(node) / width_ + box_.top;
+    for (int k = 0; k < 8; ++k) {
+      if (!inside(box_, x + kDx[k], y + kDy[k])) continue;
+      const auto edge = [&] {
+        const std::uint32_t cost = step_cost(costs_, x, y, k);
+        return Edge{cost, cost};
+      };
+      const std::uint32_t to = node + kDx[k] + kDy[k] * width_;
+      if (test(to, edge)) take(to, static_cast<Link>(k), edge());
+    }
+  }
+  std::uint32_t parent(std::uint32_t node, Link k) const { return node - kDx[k] - kDy[k] * width_; }
+
+ private:
+  const LatticeCosts& costs_;
+  PixelBox box_;
+  int width_;
+};
+
+// Ends when a target is settled; of several at the same cost the one with the lowest index.
+struct StopAtAnyTarget {
+  const Mask& wanted;
+  std::uint32_t found = kFar;
+  void settled(std::uint32_t node) {
+    if (wanted.pixels()[node]) found = std::min(found, node);
+  }
+  bool done(const SumLabels&, std::uint64_t) const { return found != kFar; }
+};
 
 CheapestPath walk_back(const Image<std::uint8_t>& came, const PixelBox& box, Pixel at, Size size) {
   CheapestPath path;
@@ -99,38 +105,25 @@ std::optional<CheapestPath> cheapest_path(const LatticeCosts& costs, Pixel start
 
   Image<std::uint32_t> best(width, height, kFar);
   Image<std::uint8_t> came(width, height, kNoStep);
-  Mask settled(width, height);
   std::uint16_t dearest = 1;
-  for (int y = box.top; y <= box.bottom; ++y) {
-    dearest = std::max(dearest, *std::max_element(costs.cost.row(y) + box.left, costs.cost.row(y) + box.right + 1));
-  }
-  BucketQueue queue(static_cast<std::uint32_t>(std::ceil(1.5 * dearest * (1.0 + costs.turn_weight))) + 2);
-  const int source = (start.y - box.top) * width + start.x - box.left;
-  best.pixels()[source] = 0;
-  queue.push(0, source);
-  for (long long round = 0; !queue.empty(); ++round) {
-    if (round % 4096 == 0) monitor.check();
-    for (const int item : queue.pop_lowest()) {
-      const int x = item % width, y = item / width;
-      if (settled(x, y)) continue;
-      settled(x, y) = 255;
-      if (wanted(x, y)) {
-        CheapestPath path = walk_back(came, box, {x + box.left, y + box.top}, costs.cost.size());
-        path.cost = best(x, y);
-        return path;
-      }
-      for (int k = 0; k < 8; ++k) {
-        const int u = x + kDx[k], v = y + kDy[k];
-        if (!best.contains(u, v) || settled(u, v) || costs.cost(u + box.left, v + box.top) == 0) continue;
-        const std::uint32_t through = best(x, y) + edge_cost(costs, x + box.left, y + box.top, k);
-        if (through >= best(u, v)) continue;
-        best(u, v) = through;
-        came(u, v) = static_cast<std::uint8_t>(k);
-        queue.push(through, v * width + u);
-      }
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::uint16_t cost = costs.cost(x + box.left, y + box.top);
+      dearest = std::max(dearest, cost);
+      if (cost == 0) best(x, y) = 0;  // forbidden: no offer is below
     }
   }
-  return std::nullopt;
+  BucketQueue queue(1, static_cast<std::uint32_t>(std::ceil(1.5 * dearest * (1.0 + costs.turn_weight))) + 2);
+  const std::uint32_t source = static_cast<std::uint32_t>((start.y - box.top) * width + start.x - box.left);
+  SumLabels labels{best.pixels().data()};
+  labels.set(source, 0);
+  queue.push(0, source);
+  StopAtAnyTarget stop{wanted};
+  if (search(BoxView(costs, box), labels, came.pixels().data(), queue, stop, kFar - 1, monitor) != SearchEnd::Stopped) return std::nullopt;
+  const int found = static_cast<int>(stop.found);
+  CheapestPath path = walk_back(came, box, {found % width + box.left, found / width + box.top}, costs.cost.size());
+  path.cost = best.pixels()[stop.found];
+  return path;
 }
 
 }  // namespace ramify

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cheapest path between two pixels of an 8-connected lattice with integer costs (ALGORITHMS 3.1, 8.3).
+// Cheapest path between two pixels of a picture, for the live wire: whole costs, dearer across a preferred direction
+// (ALGORITHMS 3.1, 8.3). The same search as plan.h's, on a box.
 #pragma once
 
 #include <cstdint>

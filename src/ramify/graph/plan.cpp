@@ -61,10 +61,11 @@ Plan blank_plan(const PlanOptions& options, std::size_t count) {
   const Metric metric = options.metric.metric;
   if (metric == Metric::Power) {
     plan.power_sum.assign(count, kInfinity);
-  } else {
+  } else if (metric == Metric::Sum) {
     plan.sum.assign(count, kFar);
+  } else {
+    plan.pair.assign(count, {kFar, kFar});
   }
-  if (metric == Metric::Partial || metric == Metric::Mix || metric == Metric::Full) plan.peak.assign(count, kFar);
   return plan;
 }
 
@@ -72,7 +73,7 @@ Plan blank_plan(const PlanOptions& options, std::size_t count) {
 void forbid(Plan& plan, int node) {
   plan.step[node] = kForbidden;
   if (!plan.sum.empty()) plan.sum[node] = 0;
-  if (!plan.peak.empty()) plan.peak[node] = 0;
+  if (!plan.pair.empty()) plan.pair[node] = {0, 0};
   if (!plan.power_sum.empty()) plan.power_sum[node] = 0.0;
 }
 
@@ -109,7 +110,7 @@ double typical_cost(const Lattice& lattice, const WeightRange& weights) {
   const bool diagonals = lattice.connectivity == Connectivity::Plane8 || lattice.connectivity == Connectivity::Volume26;
   const double across = diagonals ? 1.8 * std::max({lattice.width, lattice.height, lattice.depth})
                                   : 1.0 * lattice.width + lattice.height + lattice.depth;
-  return weights.mean * across;
+  return 0.5 * (weights.least + weights.mean) * across;  // paths avoid what is dear
 }
 
 struct CostRange {
@@ -146,7 +147,7 @@ Plan plan_paths(const Lattice& lattice, std::span<const int> sources, const Plan
   const WeightRange weights = weight_range(lattice);
   const CostScale scale{typical_cost(lattice, weights), dearest_edge(lattice, weights)};
   const double least_ticks = std::holds_alternative<WholeWeights>(lattice.weights) ? 2.0 : 1.0 / weights.least;
-  for (double ticks = std::max(ticks_for(scale, options), least_ticks); ticks >= least_ticks; ticks /= 16.0) {
+  for (double ticks = std::max(ticks_for(scale, options), least_ticks); ticks >= least_ticks; ticks /= 4.0) {
     Plan plan = blank_plan(options, static_cast<std::size_t>(lattice.count()));
     plan.ticks_per_unit = ticks;
     plan.power_unit = scale.dearest;
@@ -164,7 +165,7 @@ Plan plan_paths(const PointGraph& graph, std::span<const int> sources, const Pla
   check_plan_options(options, graph.count());
   const CostRange costs = cost_range(graph);
   const CostScale scale{4.0 * costs.mean * std::cbrt(graph.count()), costs.most};
-  for (double ticks = ticks_for(scale, options); ticks * costs.least >= 1.0; ticks /= 16.0) {
+  for (double ticks = ticks_for(scale, options); ticks * costs.least >= 1.0; ticks /= 4.0) {
     Plan plan = blank_plan(options, static_cast<std::size_t>(graph.count()));
     plan.ticks_per_unit = ticks;
     plan.power_unit = costs.most;

@@ -28,6 +28,12 @@ struct PlanOptions {
   std::vector<int> endpoints;
 };
 
+// Ticks along a path, and of its dearest edge (without lengths).
+struct SumAndPeak {
+  std::uint32_t sum = 0, peak = 0;
+  friend bool operator==(const SumAndPeak&, const SumAndPeak&) = default;
+};
+
 // What is known of every node. Read it through the functions below; the arrays are what they are to be small (lattices:
 // 5 bytes a node for Sum, 9 for Partial, Mix, Full and Power).
 struct Plan {
@@ -35,10 +41,10 @@ struct Plan {
   double ticks_per_unit = 1.0;
   double max_cost = std::numeric_limits<double>::infinity();
   bool stopped_early = false;         // some nodes are unreached because the endpoints came first
-  std::vector<std::uint32_t> sum;     // ticks along the path; Power: empty
-  std::vector<std::uint32_t> peak;    // ticks of the dearest edge, without lengths; Sum and Power: empty
-  std::vector<double> power_sum;      // Power only: sum of (cost / power_unit)^p
-  double power_unit = 1.0;            // the dearest edge possible
+  double power_unit = 1.0;            // Power: the dearest edge possible
+  std::vector<std::uint32_t> sum;     // Sum: ticks along the path
+  std::vector<SumAndPeak> pair;       // Partial, Mix, Full
+  std::vector<double> power_sum;      // Power: sum of (cost / power_unit)^p
   std::vector<std::uint8_t> step;     // lattices: the step that leads from the node to its parent, or one of those below
   std::vector<std::int32_t> parent;   // point graphs: the parent, or one of those below taken negative
 };

@@ -11,17 +11,17 @@ namespace ramify {
 class PointView {
  public:
   using Link = std::int32_t;  // the parent
+  static constexpr bool kCostlyEdges = false;
   static constexpr Link kSourceLink = -kSource, kForbiddenLink = -kForbidden, kUnreachedLink = -kUnreached;
 
   PointView(const PointGraph& graph, double ticks_per_unit) : graph_(graph), ticks_(ticks_per_unit) {}
 
-  template <class F>
-  void visit(std::uint32_t node, F&& f) const {
+  template <class Test, class Take>
+  void visit(std::uint32_t node, const Test& test, const Take& take) const {
     for (std::int32_t i = graph_.first[node]; i < graph_.first[node + 1]; ++i) {
-      f(static_cast<std::uint32_t>(graph_.neighbor[i]), static_cast<Link>(node), [&] {
-        const std::uint32_t ticks = cost_ticks(graph_.cost[i]);
-        return Edge{ticks, ticks};
-      });
+      const std::uint32_t to = static_cast<std::uint32_t>(graph_.neighbor[i]), ticks = cost_ticks(graph_.cost[i]);
+      const Edge edge{ticks, ticks};
+      if (test(to, [&] { return edge; })) take(to, static_cast<Link>(node), edge);
     }
   }
   std::uint32_t cost_ticks(float cost) const {

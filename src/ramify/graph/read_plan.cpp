@@ -40,15 +40,16 @@ double path_cost(const Plan& plan, int node) {
   switch (m.metric) {
     case Metric::Sum: return plan.sum[node] / plan.ticks_per_unit;
     case Metric::Power: return std::pow(plan.power_sum[node], 1.0 / m.power) * plan.power_unit;
-    case Metric::Mix: return (m.peak_share * plan.peak[node] + m.sum_share * plan.sum[node]) / plan.ticks_per_unit;
+    case Metric::Mix: return (m.peak_share * plan.pair[node].peak + m.sum_share * plan.pair[node].sum) / plan.ticks_per_unit;
     case Metric::Partial:
     case Metric::Full: break;
   }
-  return plan.peak[node] / plan.ticks_per_unit;
+  return plan.pair[node].peak / plan.ticks_per_unit;
 }
 
 double path_sum(const Plan& plan, int node) {
-  return is_reached(plan, node) && !plan.sum.empty() ? plan.sum[node] / plan.ticks_per_unit : kInfinity;
+  if (!is_reached(plan, node) || plan.metric.metric == Metric::Power) return kInfinity;
+  return (plan.sum.empty() ? plan.pair[node].sum : plan.sum[node]) / plan.ticks_per_unit;
 }
 
 int path_parent(const Plan& plan, const Lattice& lattice, int node) {

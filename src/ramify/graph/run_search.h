@@ -2,7 +2,9 @@
 // One search over a view, with the labels and the queue that the plan's metric needs. Private to the layer.
 #pragma once
 
+#include <bit>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include "ramify/graph/labels.h"
@@ -54,22 +56,23 @@ SearchEnd run_sum(const View& view, Plan& plan, typename View::Link* links, cons
   if (BucketQueue::size_for(task.bounds.cheapest, task.bounds.dearest) <= kMostBuckets) {
     return run_from(view, labels, links, BucketQueue(task.bounds.cheapest, task.bounds.dearest), task, limit, start, monitor);
   }
-  return run_from(view, labels, links, RadixQueue<std::uint32_t>(), task, limit, start, monitor);
+  return run_from(view, labels, links, RadixQueue<std::uint32_t>(std::bit_width(task.bounds.cheapest) - 1), task, limit, start, monitor);
 }
 
 template <class View>
 SearchEnd run_pairs(const View& view, Plan& plan, typename View::Link* links, const SearchTask& task, const Monitor& monitor) {
-  const PartialLabels labels{plan.sum.data(), plan.peak.data()};
+  const PartialLabels labels{plan.pair.data()};
   const auto start = [&](int node) { return PartialLabels::Label{view.start_ticks(node), view.start_ticks(node)}; };
   const double ticks = task.max_cost * plan.ticks_per_unit;
+  RadixQueue<std::uint64_t> queue(std::bit_width(task.bounds.cheapest) - 1);  // the sum is what a key ends with
   if (plan.metric.metric == Metric::Partial) {
     const std::uint64_t limit = PartialLabels::key_of({kFar, tick_limit(ticks)});
-    return run_from(view, labels, links, RadixQueue<std::uint64_t>(), task, limit, start, monitor);
+    return run_from(view, labels, links, std::move(queue), task, limit, start, monitor);
   }
   const double sum_ticks = ticks / plan.metric.sum_share;
   const std::uint64_t limit = sum_ticks < 1e18 ? static_cast<std::uint64_t>(sum_ticks) : MixLabels::kFarKey - 1;
   return run_from(view, MixLabels{{labels}, plan.metric.peak_share / plan.metric.sum_share}, links,
-                  RadixQueue<std::uint64_t>(), task, limit, start, monitor);
+                  std::move(queue), task, limit, start, monitor);
 }
 
 template <class View>
@@ -79,7 +82,7 @@ SearchEnd run_power(const View& view, Plan& plan, typename View::Link* links, co
   const auto start = [&](int node) { return std::pow(view.start_ticks(node) * labels.unit_per_tick, p); };
   const double most = std::pow(task.max_cost / plan.power_unit, p);
   const std::uint64_t limit = PowerLabels::key_of(std::isfinite(most) ? most : std::numeric_limits<double>::max());
-  return run_from(view, labels, links, RadixQueue<std::uint64_t>(), task, limit, start, monitor);
+  return run_from(view, labels, links, RadixQueue<std::uint64_t>(0), task, limit, start, monitor);
 }
 
 // Prim's algorithm: the tree grows by the cheapest edge out of it, ties to axial edges, then by a hash of the edge.
@@ -89,12 +92,12 @@ SearchEnd run_full(const View& view, Plan& plan, typename View::Link* links, con
   const auto later = [](const Item& a, const Item& b) { return a.key != b.key ? a.key > b.key : a.node > b.node; };
   std::priority_queue<Item, std::vector<Item>, decltype(later)> queue(later);
   constexpr std::uint64_t kSettled = 0;
-  std::vector<std::uint64_t> best(plan.sum.size(), std::numeric_limits<std::uint64_t>::max());
+  std::vector<std::uint64_t> best(plan.pair.size(), std::numeric_limits<std::uint64_t>::max());
   const std::uint32_t limit = tick_limit(task.max_cost * plan.ticks_per_unit);
   for (const int node : task.sources) {
     if (links[node] == View::kSourceLink) continue;
     links[node] = View::kSourceLink;
-    plan.sum[node] = plan.peak[node] = view.start_ticks(node);
+    plan.pair[node] = {view.start_ticks(node), view.start_ticks(node)};
     queue.push({best[node] = 1, static_cast<std::uint32_t>(node)});
   }
   std::size_t missing = task.endpoints.size();
@@ -106,21 +109,21 @@ SearchEnd run_full(const View& view, Plan& plan, typename View::Link* links, con
     queue.pop();
     if (best[node] != key) continue;
     best[node] = kSettled;
-    if (plan.sum[node] > kTickCeiling) return SearchEnd::Overflow;
+    if (plan.pair[node].sum > kTickCeiling) return SearchEnd::Overflow;
     if (count % 20000 == 0) monitor.check();
     if (!wanted.empty() && wanted[node] && --missing == 0) {
       end = SearchEnd::Stopped;
       break;
     }
-    view.visit(node, [&](std::uint32_t to, typename View::Link link, auto&& edge) {
-      if (best[to] == kSettled || links[to] == View::kSourceLink || links[to] == View::kForbiddenLink) return;
-      const Edge e = edge();
+    const auto open = [&](std::uint32_t to, auto&&) {
+      return best[to] != kSettled && links[to] != View::kSourceLink && links[to] != View::kForbiddenLink;
+    };
+    view.visit(node, open, [&](std::uint32_t to, typename View::Link link, const Edge& e) {
       const std::uint64_t offered = view.unique_key(e, node, to, link);
-      if (offered >= best[to] || std::max(plan.peak[node], e.plain) > limit) return;
+      if (offered >= best[to] || std::max(plan.pair[node].peak, e.plain) > limit) return;
       best[to] = offered;
       links[to] = link;
-      plan.sum[to] = plan.sum[node] + e.full;
-      plan.peak[to] = std::max(plan.peak[node], e.plain);
+      plan.pair[to] = {plan.pair[node].sum + e.full, std::max(plan.pair[node].peak, e.plain)};
       queue.push({offered, to});
     });
   }
@@ -128,7 +131,7 @@ SearchEnd run_full(const View& view, Plan& plan, typename View::Link* links, con
     const std::uint32_t node = queue.top().node;
     if (best[node] == kSettled || links[node] == View::kSourceLink) continue;
     links[node] = View::kUnreachedLink;
-    plan.sum[node] = plan.peak[node] = kFar;
+    plan.pair[node] = {kFar, kFar};
   }
   return end;
 }

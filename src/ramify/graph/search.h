@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The label-setting search all plans run on (Dijkstra 1959). It is put together from
-//   a View, which walks a node's edges:      view.visit(node, f) calls f(neighbour, link, edge) with edge() computed when
-//                                            asked for, and view.parent(node, link) reads a link;
-//   Labels, what is known of a node:         key(node), offer(node, from, edge, limit);
-//   a queue of bucket_queue.h; a Stop that may end it early.
+//   a View, which walks a node's edges: view.visit(node, test, take) asks test(neighbour, edge) of all edges and then calls
+//     take(neighbour, link, edge) for those where it held: two loops, because the first runs without a branch (most of
+//     the time of a search goes into mispredicted ones), and view.parent(node, link) reads a link;
+//   Labels, what is known of a node (labels.h);
+//   a queue of bucket_queue.h; a Stop that may end the search early.
 // Private to the layer.
 #pragma once
 
@@ -57,17 +58,22 @@ SearchEnd search(const View& view, Labels& labels, typename View::Link* links, Q
       if (labels.key(node) != key) continue;  // a better label came later
       if (labels.overflows(node)) return SearchEnd::Overflow;
       stop.settled(node);
-      view.visit(node, [&](std::uint32_t to, Link link, auto&& edge) {
+      const auto may_improve = [&](std::uint32_t to, auto&& edge) {
+        if constexpr (View::kCostlyEdges || Labels::kCostly) {
+          if (labels.key(to) <= key) return false;  // settled before this node
+        }
+        return labels.key_of(labels.extended(node, edge())) <= labels.key(to);
+      };
+      view.visit(node, may_improve, [&](std::uint32_t to, Link link, const Edge& edge) {
         const Key old = labels.key(to);
-        if (old <= key) return;  // settled before this node
-        const auto label = labels.extended(node, edge());
+        const auto label = labels.extended(node, edge);
         const Key offered = labels.key_of(label);
         if (offered < old) {
           if (offered > limit) return;
           labels.set(to, label);
           links[to] = link;
           queue.push(offered, to);
-        } else if (offered == old) {
+        } else if (old > key) {
           const std::uint32_t rival = view.parent(to, links[to]);
           const Key rival_key = labels.key(rival);
           if (key < rival_key || (key == rival_key && node < rival)) {
