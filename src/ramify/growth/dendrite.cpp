@@ -118,7 +118,7 @@ class DendriteGrower {
     const double spacing = options_.spacing * distance;
     if (options_.placement == Placement::Moss) return choose_above(sources(), usable(), count, distance, options_.spacing, rng);
     if (options_.placement == Placement::Lightning && round > 0) {
-      return choose_below(sources(), usable(), count, 0.16 * distance, 0.02 * distance, rng);
+      return choose_below(sources(), usable(), count, 0.3 * distance, 0.04 * distance, rng);
     }
     if (options_.placement == Placement::Lightning) {
       return choose_spaced(reached([&](int node) { return node / canvas.width >= 0.97 * canvas.height; }), canvas, count, 0.5 * canvas.width / count, rng);

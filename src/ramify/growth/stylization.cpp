@@ -37,23 +37,21 @@ namespace {
 // Costs as whole numbers: the dearest node gets this, so that a queue of buckets can be used.
 constexpr double kDearest = 1000.0;
 
-std::vector<double> factors(const StylizeOptions& options) {
-  if (options.upward == 1.0 && options.sideways == 1.0) return {};
+}  // namespace
+
+std::vector<double> growth_direction_factors(Connectivity connectivity, double upward, double sideways) {
+  if (upward == 1.0 && sideways == 1.0) return {};
   std::vector<double> out;
-  for (const LatticeStep& step : lattice_steps(Connectivity::Plane8)) {
-    out.push_back(step.dy < 0 ? options.upward : step.dy == 0 ? options.sideways : 1.0);
-  }
+  for (const LatticeStep& step : lattice_steps(connectivity)) out.push_back(step.dy < 0 ? upward : step.dy == 0 ? sideways : 1.0);
   return out;
 }
-
-}  // namespace
 
 Lattice importance_lattice(const ScalarImage& importance, const Mask& allowed, const StylizeOptions& options, Rng rng) {
   Lattice lattice;
   lattice.width = importance.width();
   lattice.height = importance.height();
   lattice.connectivity = Connectivity::Plane8;
-  lattice.direction_factor = factors(options);
+  lattice.direction_factor = growth_direction_factors(lattice.connectivity, options.upward, options.sideways);
   if (!allowed.empty()) lattice.allowed = allowed.pixels();
   const std::uint64_t seed = rng.next();
   const double scale = kDearest / (options.constant + 1.0 + options.noise);

@@ -36,6 +36,9 @@ struct ImportanceThickness {
 };
 std::vector<OptionField> describe(ImportanceThickness& options);
 
+// Lattice::direction_factor for growth that goes up or to the side at a price: lightning (section 4.5).
+std::vector<double> growth_direction_factors(Connectivity connectivity, double upward, double sideways);
+
 // The lattice with a node for every pixel, dear where little is important: constant + (1 - importance) + noise * u,
 // with eight neighbours and edges that cost the mean of their nodes (section 4.1). allowed: empty, or 0 = forbidden.
 Lattice importance_lattice(const ScalarImage& importance, const Mask& allowed, const StylizeOptions& options, Rng rng);

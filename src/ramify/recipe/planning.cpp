@@ -21,6 +21,8 @@ std::vector<OptionField> describe(LatticeOptions& o) {
       flag("edge-weights", o.edge_weights, "Every edge has a random weight of its own, as in the paper."),
       choice("edge-cost", o.edge_cost, {"mean", "target"}, "An edge costs the mean of its nodes, or the node it leads to."),
       choice("diagonal", o.diagonal, {"geometric", "none"}, "Diagonals count with their length, or like other edges."),
+      number("upward", o.upward, 0.01, 100.0, "", "Growing up costs so many times as much; 3 for lightning."),
+      number("sideways", o.sideways, 0.01, 100.0, "", "Growing to the side costs so many times as much; 1.5 for lightning."),
   };
 }
 
@@ -69,6 +71,7 @@ Lattice load_lattice(const DendriteRequest& request, std::uint64_t seed, const M
   lattice.connectivity = o.connectivity == Neighbours::Four ? Connectivity::Plane4 : Connectivity::Plane8;
   lattice.edge_cost = o.edge_cost;
   lattice.diagonal = o.diagonal;
+  lattice.direction_factor = growth_direction_factors(lattice.connectivity, o.upward, o.sideways);
   if (!request.node_weights.empty()) {
     const ScalarImage weights = load_scalar(request.node_weights, request.limits);
     set_nodes(lattice, weights.width(), weights.height(), request.limits);

@@ -27,6 +27,8 @@ struct LatticeOptions {
   bool edge_weights = false;    // every edge its own random weight, as in paper 001, instead of the mean of its nodes
   EdgeCost edge_cost = EdgeCost::Mean;
   DiagonalLength diagonal = DiagonalLength::Geometric;
+  double upward = 1.0;          // steps up, away from the root, cost so many times as much
+  double sideways = 1.0;        // steps to the side
 };
 std::vector<OptionField> describe(LatticeOptions& options);
 
