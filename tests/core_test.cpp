@@ -2,12 +2,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "ramify/core/atomic_file.h"
 #include "ramify/core/error.h"
@@ -120,6 +123,45 @@ std::vector<OptionField> describe(SampleOptions& o) {
           flag("loud", o.loud, "Shout."), choice("taste", o.taste, {"sweet", "sour"}, "Which.")};
 }
 }  // namespace
+
+TEST_CASE("loops under a scope stop at a cancel and others do not") {
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    const Monitor monitor([](double, const std::string&) {});
+    std::atomic<int> done{0};
+    const auto body = [&](int i) {
+      parallel_for(10, [&](int k) {  // a loop inside a loop listens too
+        ++done;
+        if (i == 5 && k == 5) monitor.cancel();
+      });
+    };
+    {
+      const CancelScope scope(monitor);
+      const CancelScope inner(monitor);
+      CHECK_THROWS_AS(parallel_for(1000, body), Cancelled);
+      CHECK_THROWS_AS(check_cancel(), Cancelled);
+    }
+    CHECK(done >= 6 + 10 * (threads == 1 ? 5 : 0));
+    CHECK(done < 10 * 20);
+    CHECK_NOTHROW(check_cancel());  // the scope is over
+    CHECK_NOTHROW(parallel_for(3, body));
+  }
+  set_thread_count(0);
+}
+
+TEST_CASE("a monitor knows its longest silence") {
+  const Monitor monitor([](double, const std::string&) {});
+  {
+    const Monitor part = monitor.stage("part");
+    part.check();
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    part.check();
+    part.check();
+  }
+  REQUIRE(monitor.timings().size() == 1);
+  CHECK(monitor.timings()[0].longest_silence >= 0.03);
+  CHECK(monitor.timings()[0].longest_silence <= monitor.timings()[0].seconds);
+}
 
 TEST_CASE("options read and write themselves and name what is wrong") {
   SampleOptions options;

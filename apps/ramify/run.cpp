@@ -124,7 +124,7 @@ void limit_memory(double mebibytes) {
 void write_timings(const std::string& path, const Monitor& monitor) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const StageTime& row : monitor.timings()) {
-    rows.push_back({{"stage", row.name}, {"seconds", row.seconds}, {"calls", row.calls}});
+    rows.push_back({{"stage", row.name}, {"seconds", row.seconds}, {"calls", row.calls}, {"longest_silence", row.longest_silence}});
   }
   write_file(path, rows.dump(1) + "\n");
 }

@@ -14,6 +14,7 @@ using Clock = std::chrono::steady_clock;
 struct Monitor::Shared {
   Progress progress;
   std::atomic<bool> cancelled{false};
+  std::atomic<Clock::rep> last_check{Clock::now().time_since_epoch().count()};
   std::mutex mutex;
   double furthest = 0.0;
   Clock::time_point last_call{};
@@ -27,16 +28,26 @@ struct Monitor::Part {
   double from = 0.0;
   double to = 1.0;
   Clock::time_point start = Clock::now();
+  std::atomic<Clock::rep> longest_silence{0};
+
+  // Takes note of how long nobody has looked for a cancel.
+  void hear(Clock::rep silence) {
+    Clock::rep known = longest_silence.load(std::memory_order_relaxed);
+    while (silence > known && !longest_silence.compare_exchange_weak(known, silence, std::memory_order_relaxed)) {
+    }
+  }
 
   ~Part() {
     if (name.empty()) return;
+    hear(Clock::now().time_since_epoch().count() - shared->last_check.load(std::memory_order_relaxed));
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     const std::lock_guard lock(shared->mutex);
     auto& rows = shared->timings;
     auto row = std::find_if(rows.begin(), rows.end(), [&](const StageTime& t) { return t.name == name; });
-    if (row == rows.end()) row = rows.insert(rows.end(), StageTime{name, 0.0, 0});
+    if (row == rows.end()) row = rows.insert(rows.end(), StageTime{name, 0.0, 0, 0.0});
     row->seconds += seconds;
     row->calls += 1;
+    row->longest_silence = std::max(row->longest_silence, std::chrono::duration<double>(Clock::duration(longest_silence.load())).count());
   }
 };
 
@@ -75,7 +86,11 @@ void Monitor::report(double fraction) const {
 }
 
 void Monitor::check() const {
-  if (shared_ && shared_->cancelled.load(std::memory_order_relaxed)) throw Cancelled();
+  if (!shared_) return;
+  if (shared_->cancelled.load(std::memory_order_relaxed)) throw Cancelled();
+  const Clock::rep now = Clock::now().time_since_epoch().count();
+  const Clock::rep before = shared_->last_check.exchange(now, std::memory_order_relaxed);
+  if (part_) part_->hear(now - before);
 }
 
 void Monitor::cancel() const {

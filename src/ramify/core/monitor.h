@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress, cancelling and timing of long work. Every stage takes a Monitor (cheap to copy), reports at least every
-// 100 ms of work and stops within 200 ms of a cancel by throwing Cancelled.
+// Progress, cancelling and timing of long work. Every stage takes a Monitor (cheap to copy), reports or checks at least
+// every 100 ms of work (bench/silences measures it) and so stops within 200 ms of a cancel by throwing Cancelled.
 #pragma once
 
 #include <atomic>
@@ -16,6 +16,7 @@ struct StageTime {
   std::string name;       // nested stages are written "outer/inner"
   double seconds = 0.0;   // wall clock, summed over calls
   int calls = 0;
+  double longest_silence = 0.0;  // s, most that passed between two looks for a cancel; what a stop may have to wait for
 };
 
 class Monitor {

@@ -14,6 +14,7 @@ namespace {
 
 std::atomic<int> g_thread_count{0};
 thread_local bool t_inside_loop = false;
+thread_local const Monitor* t_monitor = nullptr;  // of the innermost CancelScope
 
 }  // namespace
 
@@ -24,11 +25,22 @@ int thread_count() {
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+CancelScope::CancelScope(const Monitor& monitor) : monitor_(monitor), outer_(t_monitor) { t_monitor = &monitor_; }
+
+CancelScope::~CancelScope() { t_monitor = outer_; }
+
+void check_cancel() {
+  if (t_monitor) t_monitor->check();
+}
+
 void parallel_for(int count, const std::function<void(int)>& body, int grain) {
   grain = std::max(1, grain);
   const int workers = std::min(thread_count(), (count + grain - 1) / grain);
   if (workers <= 1 || t_inside_loop) {
-    for (int i = 0; i < count; ++i) body(i);
+    for (int i = 0; i < count; ++i) {
+      check_cancel();
+      body(i);
+    }
     return;
   }
   std::atomic<int> next{0};
@@ -36,13 +48,16 @@ void parallel_for(int count, const std::function<void(int)>& body, int grain) {
   std::mutex mutex;
   std::exception_ptr error;
   int error_index = count;
+  const Monitor* const monitor = t_monitor;
   const auto work = [&] {
     t_inside_loop = true;
+    t_monitor = monitor;
     while (!failed) {
       const int begin = next.fetch_add(grain);
       if (begin >= count) break;
       for (int i = begin; i < std::min(begin + grain, count) && !failed; ++i) {
         try {
+          check_cancel();
           body(i);
         } catch (...) {
           const std::lock_guard lock(mutex);

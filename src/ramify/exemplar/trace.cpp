@@ -297,6 +297,7 @@ std::vector<OptionField> describe(TraceOptions& o) {
 }
 
 Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Monitor& monitor) {
+  const CancelScope scope(monitor);
   TraceOptions checked = options;
   check_options(describe(checked));
   std::vector<Region> regions = parse_regions("regions", options.regions);
@@ -328,6 +329,7 @@ Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Mo
 
 Annotation remeasure_widths(const Photo& photo, const Annotation& annotation, const TraceOptions& options,
                             const Monitor& monitor) {
+  const CancelScope scope(monitor);
   const RidgeEvidence evidence = gather_evidence(photo.color, excluded_pixels(photo, annotation.regions), options,
                                                  monitor.stage("ridges", 0.0, 0.7));
   Annotation out = annotation;

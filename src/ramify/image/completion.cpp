@@ -132,6 +132,7 @@ std::vector<OptionField> describe(CompletionOptions& o) {
 
 Completion complete(const ColorImage& image, const Mask& hole, const Mask& forbidden, const CompletionOptions& options,
                     Rng rng, const Monitor& monitor) {
+  const CancelScope scope(monitor);
   if (hole.size() != image.size() || (!forbidden.empty() && forbidden.size() != image.size())) {
     throw std::invalid_argument("complete: picture and masks differ in size");
   }

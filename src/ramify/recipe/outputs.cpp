@@ -2,6 +2,7 @@
 #include "ramify/recipe/outputs.h"
 
 #include "ramify/core/atomic_file.h"
+#include "ramify/core/parallel.h"
 #include "ramify/image/image_io.h"
 #include "ramify/report/report.h"
 #include "ramify/skeleton/draw.h"
@@ -40,6 +41,7 @@ void save_intermediates(const LoadedRequest& loaded, const Picture& picture, con
 }  // namespace
 
 void save_picture(const LoadedRequest& loaded, const Picture& picture, const PictureFiles& files, const Monitor& monitor) {
+  const CancelScope scope(monitor);
   if (loaded.request.verb == "grow") {
     save_skeleton(picture.skeleton, files.picture);
     return;

@@ -6,6 +6,7 @@
 
 #include "ramify/core/error.h"
 #include "ramify/core/json.h"
+#include "ramify/core/parallel.h"
 #include "ramify/image/sample.h"
 #include "ramify/report/histogram_plot.h"
 #include "ramify/report/picture_figures.h"
@@ -66,6 +67,7 @@ Json figure_list(const std::vector<Figure>& figures) {
 }  // namespace
 
 Report make_report(const ReportSubject& exemplar, const ReportSubject& result, Rng rng, const Monitor& monitor) {
+  const CancelScope scope(monitor);
   const bool structure = !exemplar.skeleton.empty() && !result.skeleton.empty();
   if (!structure) {
     throw InputError((exemplar.skeleton.empty() ? exemplar : result).name, "there is no skeleton to compare; give an exemplar, a skeleton or a picture made by ramify");

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ramify/core/error.h"
+#include "ramify/core/parallel.h"
 #include "ramify/skeleton/draw.h"
 #include "ramify/synthetic/scene.h"
 
@@ -49,6 +50,7 @@ Size natural_size(SyntheticKind kind) {
 }
 
 SyntheticExemplar make_synthetic(SyntheticKind kind, Size size, const Rng& rng, const Monitor& monitor) {
+  const CancelScope scope(monitor);
   if (std::min(size.width, size.height) < 64 || std::max(size.width, size.height) > 16384)
     throw OptionError("size", std::to_string(size.width) + "x" + std::to_string(size.height),
                       "width and height of a synthetic photograph are 64 to 16384 px");
