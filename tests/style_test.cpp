@@ -148,11 +148,24 @@ TEST_CASE("a broken style names the path of what is wrong") {
     return copy;
   };
   CHECK_THROWS_WITH(parse_style("{", "x.json"), Catch::Contains("x.json"));
-  CHECK_THROWS_WITH(parse_style(broken("\"format\": \"ramify-style\"", "\"format\": \"other\""), "x"), Catch::Contains("/format"));
+  CHECK_THROWS_WITH(parse_style(broken("\"format\": \"ramify-style\"", "\"format\": \"other\""), "x"), Catch::Contains("$: this is"));
   CHECK_THROWS_WITH(parse_style(broken("\"step\":", "\"stop\":"), "x"), Catch::Contains("step"));
   CHECK_THROWS_WITH(parse_style(broken("\"parent_vertex\": 0", "\"parent_vertex\": 99999"), "x"),
-                    Catch::Contains("/hierarchy/branches/0/parent_vertex"));
-  CHECK_THROWS_WITH(parse_style(broken("\"history\":", "\"history\": 1e99, \"was\":"), "x"), Catch::Contains("/bending/history"));
+                    Catch::Contains("$.hierarchy.branches[0].parent_vertex"));
+  CHECK_THROWS_WITH(parse_style(broken("\"history\":", "\"history\": 1e99, \"was\":"), "x"), Catch::Contains("$.bending.history"));
+}
+
+TEST_CASE("a style of the first days reads without its landmarks and a newer one is refused") {
+  const std::string text = style_text(learn_style(test::wavy_tree({}, 4), LearnStyleOptions{}, Monitor{}));
+  std::string old = text;
+  for (const std::string field : {"\"starts_on_landmark\": false,", "\"starts_on_landmark\": true,"}) {
+    for (std::size_t at = old.find(field); at != std::string::npos; at = old.find(field)) old.erase(at, field.size());
+  }
+  REQUIRE(old.size() < text.size());
+  CHECK(style_text(parse_style(old, "old.json")) == text);  // the tree has no landmark
+  std::string newer = text;
+  newer.replace(newer.find("\"version\": 1"), 12, "\"version\": 2");
+  CHECK_THROWS_WITH(parse_style(newer, "new.json"), Catch::Contains("newer ramify") && Catch::Contains("version 2"));
 }
 
 TEST_CASE("learning is the same with any number of threads") {

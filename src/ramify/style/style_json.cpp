@@ -1,38 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A style as JSON. Numbers are written with the shortest text that reads back as the same double, so a round trip is
 // exact.
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <array>
 
-#include "ramify/core/error.h"
+#include "ramify/core/json.h"
 #include "ramify/style/style.h"
 
 namespace ramify {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr char kFormat[] = "ramify-style";
+constexpr int kVersion = 1;
 
 const std::array<const char*, 3> kEndNames{"tip", "frame", "join"};
 
+Json list_json(const auto& values) {
+  Json::Array out;
+  for (const auto value : values) out.push_back(value);
+  return out;
+}
+
 Json histogram_json(const Histogram& h) {
-  return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}, {"total", h.total}};
+  return Json::Object{{"low", h.low}, {"high", h.high}, {"counts", list_json(h.counts)}, {"total", h.total}};
 }
 
 Json headings_json(const std::array<Headings, kHeadingOrders>& all) {
-  Json out = Json::array();
-  for (const Headings& h : all) out.push_back({{"share", h.share}, {"strength", h.strength}});
+  Json::Array out;
+  for (const Headings& h : all) out.push_back(Json::Object{{"share", list_json(h.share)}, {"strength", h.strength}});
   return out;
 }
 
 Json bending_json(const BendingModel& m) {
-  Json vertices = Json::array();
+  Json::Array vertices;
   for (int i = 0; i < m.vertex_count(); ++i) {
-    vertices.push_back({m.point[i].x(), m.point[i].y(), m.alpha[i], m.radius[i], m.smooth_radius[i]});
+    vertices.push_back(Json::Array{m.point[i].x(), m.point[i].y(), m.alpha[i], m.radius[i], m.smooth_radius[i]});
   }
-  return {{"step", m.step},
+  return Json::Object{{"step", m.step},
           {"extension", m.extension},
           {"history", m.history},
-          {"first", m.first},
+          {"first", list_json(m.first)},
           {"vertices", vertices},
           {"angle_gain", m.angle_gain},
           {"radius_gain", m.radius_gain},
@@ -41,12 +48,12 @@ Json bending_json(const BendingModel& m) {
 }
 
 Json furcation_json(const FurcationModel& m) {
-  return {{"half_window", m.half_window},
+  return Json::Object{{"half_window", m.half_window},
           {"absolute_angles", m.absolute_angles},
           {"trained", m.trained},
-          {"mean", m.mean},
-          {"deviation", m.deviation},
-          {"weight", m.weight},
+          {"mean", list_json(m.mean)},
+          {"deviation", list_json(m.deviation)},
+          {"weight", list_json(m.weight)},
           {"bias", m.bias},
           {"slope", m.slope},
           {"offset", m.offset},
@@ -55,13 +62,13 @@ Json furcation_json(const FurcationModel& m) {
           {"auc_shape", m.auc_shape},
           {"gap_log_mean", m.gap_log_mean},
           {"gap_log_deviation", m.gap_log_deviation},
-          {"rate", m.rate}};
+          {"rate", list_json(m.rate)}};
 }
 
 Json hierarchy_json(const Hierarchy& h) {
-  Json branches = Json::array();
+  Json::Array branches;
   for (const SourceBranch& b : h.branches) {
-    branches.push_back({{"parent", b.parent},
+    branches.push_back(Json::Object{{"parent", b.parent},
                         {"parent_vertex", b.parent_vertex},
                         {"order", b.order},
                         {"tree", b.tree},
@@ -72,12 +79,12 @@ Json hierarchy_json(const Hierarchy& h) {
                         {"starts_on_landmark", b.starts_on_landmark},
                         {"end", kEndNames[static_cast<std::size_t>(b.end)]}});
   }
-  return {{"branches", branches},
+  return Json::Object{{"branches", branches},
           {"headings", headings_json(h.headings)},
           {"ray_headings", headings_json(h.ray_headings)},
-          {"lags", h.lags},
-          {"lag_turn", h.lag_turn},
-          {"tip_profile", h.tip_profile},
+          {"lags", list_json(h.lags)},
+          {"lag_turn", list_json(h.lag_turn)},
+          {"tip_profile", list_json(h.tip_profile)},
           {"most_ratio", h.most_ratio},
           {"least_radius", h.least_radius},
           {"side_gap", h.side_gap},
@@ -85,72 +92,50 @@ Json hierarchy_json(const Hierarchy& h) {
           {"spacing", h.spacing},
           {"total_length", h.total_length},
           {"furcation_gap", h.furcation_gap},
-          {"habitat", h.habitat}};
+          {"habitat", list_json(h.habitat)}};
 }
 
-// Reading: every access names its path, so that an error says where the text is wrong.
+// A value of the document: every complaint names the file and the path.
 class Reader {
  public:
-  Reader(const Json& json, std::string name, std::string path)
-      : json_(json), name_(std::move(name)), path_(std::move(path)) {}
+  Reader(const JsonDocument& document, const Json& value) : document_(document), value_(value) {}
 
-  Reader operator[](const char* key) const {
-    if (!json_.is_object() || !json_.contains(key)) fail("the field '" + std::string(key) + "' is missing");
-    return {json_.at(key), name_, path_ + "/" + key};
-  }
-  Reader operator[](std::size_t i) const { return {json_.at(i), name_, path_ + "/" + std::to_string(i)}; }
-  std::size_t list_size() const {
-    if (!json_.is_array()) fail("a list is expected");
-    return json_.size();
-  }
-  double real() const {
-    if (!json_.is_number()) fail("a number is expected");
-    const double value = json_.get<double>();
-    if (!std::isfinite(value)) fail("a finite number is expected");
-    return value;
-  }
-  double real(double low, double high) const {
-    const double value = real();
-    if (value < low || value > high) fail("a number from " + number_text(low) + " to " + number_text(high) + " is expected");
-    return value;
-  }
-  int whole(int low, int high) const {
-    if (!json_.is_number_integer()) fail("a whole number is expected");
-    return static_cast<int>(real(low, high));
-  }
-  bool truth() const {
-    if (!json_.is_boolean()) fail("true or false is expected");
-    return json_.get<bool>();
-  }
-  std::string text() const {
-    if (!json_.is_string()) fail("a text is expected");
-    return json_.get<std::string>();
-  }
+  Reader operator[](const char* key) const { return {document_, document_.member(value_, key)}; }
+  Reader operator[](std::size_t i) const { return {document_, document_.array(value_)[i]}; }
+  bool has(const char* key) const { return document_.find(value_, key) != nullptr; }
+  std::size_t list_size() const { return document_.array(value_).size(); }
+  double real() const { return document_.number(value_); }
+  double real(double low, double high) const { return document_.number(value_, low, high); }
+  int whole(int low, int high) const { return document_.integer(value_, low, high); }
+  bool truth() const { return document_.boolean(value_); }
+  const std::string& text() const { return document_.text(value_); }
   std::vector<double> reals() const {
     std::vector<double> out;
     for (std::size_t i = 0; i < list_size(); ++i) out.push_back((*this)[i].real());
     return out;
   }
   std::vector<double> reals(std::size_t count) const {
-    if (list_size() != count) fail("a list of " + std::to_string(count) + " numbers is expected");
+    document_.array(value_, count);
     return reals();
+  }
+  std::vector<int> wholes(std::size_t count, int low, int high) const {
+    document_.array(value_, count);
+    return wholes(low, high);
   }
   std::vector<int> wholes(int low, int high) const {
     std::vector<int> out;
     for (std::size_t i = 0; i < list_size(); ++i) out.push_back((*this)[i].whole(low, high));
     return out;
   }
-  [[noreturn]] void fail(const std::string& reason) const {
-    throw InputError(name_, (path_.empty() ? "/" : path_) + ": " + reason);
-  }
+  [[noreturn]] void fail(const std::string& reason) const { document_.fail(value_, reason); }
 
  private:
-  const Json& json_;
-  std::string name_;
-  std::string path_;
+  const JsonDocument& document_;
+  const Json& value_;
 };
 
 constexpr double kHuge = 1e9;
+constexpr double kLeastStep = 0.05;  // px; growth lays its grids by steps and spacings, which must not be all but nothing
 
 Histogram read_histogram(const Reader& in) {
   Histogram h;
@@ -176,7 +161,7 @@ std::array<Headings, kHeadingOrders> read_headings(const Reader& in) {
 
 BendingModel read_bending(const Reader& in) {
   BendingModel m;
-  m.step = in["step"].real(1e-6, kHuge);
+  m.step = in["step"].real(kLeastStep, kHuge);
   m.extension = in["extension"].whole(1, 1024);
   m.history = in["history"].whole(1, 4096);
   const Reader vertices = in["vertices"];
@@ -239,7 +224,7 @@ SourceBranch read_branch(const Reader& in, const BendingModel& bending, int numb
   b.start_angle = in["start_angle"].real();
   b.ratio = in["ratio"].real(1e-9, kHuge);
   b.starts_on_frame = in["starts_on_frame"].truth();
-  b.starts_on_landmark = in["starts_on_landmark"].truth();
+  b.starts_on_landmark = in.has("starts_on_landmark") && in["starts_on_landmark"].truth();  // styles of 0.1.0 lack it
   const std::string end = in["end"].text();
   const auto known = std::find(kEndNames.begin(), kEndNames.end(), end);
   if (known == kEndNames.end()) in["end"].fail("'tip', 'frame' or 'join' is expected");
@@ -263,7 +248,7 @@ Hierarchy read_hierarchy(const Reader& in, const BendingModel& bending) {
   h.side_gap = in["side_gap"].whole(1, 1 << 20);
   h.highest_order = in["highest_order"].whole(0, 1 << 20);
   h.most_ratio = in["most_ratio"].real(1e-3, 1e3);
-  h.spacing = in["spacing"].real(1e-3, kHuge);
+  h.spacing = in["spacing"].real(kLeastStep, kHuge);
   h.total_length = in["total_length"].real(0.0, 1e15);
   h.furcation_gap = in["furcation_gap"].whole(1, 1 << 20);
   h.habitat = in["habitat"].reals(kHabitatCells * kHabitatCells);
@@ -273,32 +258,28 @@ Hierarchy read_hierarchy(const Reader& in, const BendingModel& bending) {
 }  // namespace
 
 std::string style_text(const Style& style) {
-  const Json json{{"format", "ramify-style"},
-                  {"version", 1},
+  return json_text(Json::Object{{"format", kFormat},
+                  {"version", kVersion},
                   {"step", style.step},
                   {"feature_size", style.feature_size},
                   {"unit_radius", style.unit_radius},
                   {"mirror", style.mirror},
-                  {"exemplar_size", {style.exemplar_size.width, style.exemplar_size.height}},
+                  {"exemplar_size", Json::Array{style.exemplar_size.width, style.exemplar_size.height}},
                   {"bending", bending_json(style.bending)},
                   {"furcation", furcation_json(style.furcation)},
-                  {"hierarchy", hierarchy_json(style.hierarchy)}};
-  return json.dump(1) + "\n";
+                  {"hierarchy", hierarchy_json(style.hierarchy)}});
 }
 
 Style parse_style(const std::string& json, const std::string& name) {
-  Json parsed = Json::parse(json, nullptr, false);
-  if (parsed.is_discarded()) throw InputError(name, "is not JSON; a style saved by ramify is expected");
-  const Reader in(parsed, name, "");
-  if (in["format"].text() != "ramify-style") in["format"].fail("a style has the format 'ramify-style'");
-  if (in["version"].whole(0, 1 << 20) != 1) in["version"].fail("only version 1 is known; save the style again");
+  const JsonDocument document(json, name);
+  document.check_format(kFormat, kVersion);
+  const Reader in(document, document.root());
   Style style;
-  style.step = in["step"].real(1e-6, kHuge);
-  style.feature_size = in["feature_size"].real(1e-6, kHuge);
+  style.step = in["step"].real(kLeastStep, kHuge);
+  style.feature_size = in["feature_size"].real(kLeastStep, kHuge);
   style.unit_radius = in["unit_radius"].real(1e-9, kHuge);
   style.mirror = in["mirror"].truth();
-  const std::vector<int> size = in["exemplar_size"].wholes(1, 1 << 20);
-  if (size.size() != 2) in["exemplar_size"].fail("width and height are expected");
+  const std::vector<int> size = in["exemplar_size"].wholes(2, 1, 1 << 20);
   style.exemplar_size = {size[0], size[1]};
   style.bending = read_bending(in["bending"]);
   style.furcation = read_furcation(in["furcation"]);
