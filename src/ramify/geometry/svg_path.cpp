@@ -15,6 +15,7 @@ namespace ramify {
 namespace {
 
 constexpr std::size_t kMostBytes = 64u << 20;
+constexpr double kFarthest = 1e7;  // px; far beyond any picture, far below where doubles lose pixels
 constexpr int kDeepest = 256;
 using Affine = Eigen::Affine2d;
 
@@ -111,7 +112,12 @@ void add_paths(const pugi::xml_node& node, const Inherited& own, const std::stri
     if (key.rfind("data-", 0) == 0) path.attributes.emplace_back(key.substr(5), attribute.value());
   }
   for (auto& points : parse_path_data(node.attribute("d").value(), name)) {
-    for (Vec2& p : points) p = own.canvas_from_local * p - Vec2(0.5, 0.5);
+    for (Vec2& p : points) {
+      p = own.canvas_from_local * p - Vec2(0.5, 0.5);
+      if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kFarthest) {
+        throw InputError(name, "a path runs beyond " + number_text(kFarthest) + " px");
+      }
+    }
     path.points = std::move(points);
     drawing.paths.push_back(path);
   }

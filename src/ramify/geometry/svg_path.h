@@ -27,7 +27,7 @@ struct SvgDrawing {
 };
 
 // Transforms are applied, the viewBox's corner is the canvas's corner, curves are flattened to within 0.05 px. Throws
-// InputError for malformed XML or path data, LimitError for more than 64 MB, 1e7 points or 256 nested elements.
+// InputError for malformed XML or path data and for points beyond 1e7 px, LimitError for more than 64 MB, 1e7 points or 256 nested elements.
 SvgDrawing parse_svg(std::string_view text, const std::string& name);
 
 // The data of one `d` attribute as subpaths, without transform. Throws InputError.

@@ -117,9 +117,6 @@ LoadedSkeleton parse_svg_skeleton(std::string_view text, const std::string& name
       continue;
     }
     if (!path.data("loop").empty()) continue;
-    for (const Vec2& p : path.points) {
-      if (!(p.cwiseAbs().maxCoeff() <= kFarthest)) throw InputError(name, "a path runs beyond " + number_text(kFarthest) + " px");
-    }
     if ((work += nodes.size()) > kMostForeignWork) throw LimitError(name + ": too many paths");
     const int parent = path.points.empty() ? kNone : find_parent(nodes, path.points.front());
     const double radius = path_radius(path);
