@@ -134,19 +134,24 @@ TEST_CASE("inputs are found by their content beside the recipe and then among th
   const PhotosVariable variable(photos.path());
   const std::string content = "a photo";
   const RecipeInput input{"photo", "a.jpg", sha256_hex(content)};
-  CHECK_THROWS_WITH(find_input(input, here.path()), Catch::Contains("a.jpg") && Catch::Contains(photos.path()) &&
+  CHECK_THROWS_WITH(find_input(input, {here.path()}), Catch::Contains("a.jpg") && Catch::Contains(photos.path()) &&
                                                         Catch::Contains(input.sha256.substr(0, 12)));
   write_file(photos / "other.jpg", content);
-  CHECK(find_input(input, here.path()) == photos / "other.jpg");
+  CHECK(find_input(input, {here.path()}) == photos / "other.jpg");
   write_file(photos / "a.jpg", content);
-  CHECK(find_input(input, here.path()) == photos / "a.jpg");
+  CHECK(find_input(input, {here.path()}) == photos / "a.jpg");
   write_file(here / "a.jpg", "other content");
-  CHECK(find_input(input, here.path()) == photos / "a.jpg");
+  CHECK(find_input(input, {here.path()}) == photos / "a.jpg");
   write_file(here / "renamed.jpg", content);
-  CHECK(find_input(input, here.path()) == here / "renamed.jpg");
+  CHECK(find_input(input, {here.path()}) == here / "renamed.jpg");
   write_file(here / "a.jpg", content);  // the remembered digest must not outlive the content
-  CHECK(find_input(input, here.path()) == here / "a.jpg");
-  CHECK(find_input({"exemplar", "builtin:river", ""}, here.path()) == "builtin:river");
+  CHECK(find_input(input, {here.path()}) == here / "a.jpg");
+  CHECK(find_input({"exemplar", "builtin:river", ""}, {here.path()}) == "builtin:river");
+  const TempFolder elsewhere;
+  const RecipeInput map{"density", "map.png", sha256_hex("a map")};
+  write_file(elsewhere / "other.png", "a map");
+  CHECK_THROWS_WITH(find_input(map, {here.path()}), Catch::Contains("--inputs"));
+  CHECK(find_input(map, {here.path(), elsewhere.path()}) == elsewhere / "other.png");
 }
 
 TEST_CASE("searching inputs does not hang on what is no file") {
@@ -154,7 +159,7 @@ TEST_CASE("searching inputs does not hang on what is no file") {
   const PhotosVariable variable("/nowhere/at/all");
   REQUIRE(mkfifo((here / "a.jpg").c_str(), 0600) == 0);
   REQUIRE(mkdir((here / "b.jpg").c_str(), 0700) == 0);
-  CHECK_THROWS_AS(find_input({"photo", "a.jpg", std::string(64, '0')}, here.path()), InputError);
+  CHECK_THROWS_AS(find_input({"photo", "a.jpg", std::string(64, '0')}, {here.path()}), InputError);
 }
 
 TEST_CASE("options become texts that read back") {

@@ -61,10 +61,9 @@ Json style_facts(const Skeleton& skeleton, const Monitor& monitor) {
                       {"furcations_seen", style.furcation.positives}, {"furcation_auc", style.furcation.auc}};
 }
 
-Json annotation_facts(const std::string& path, const Monitor& monitor) {
-  const Annotation annotation = load_annotation(path);
+Json annotation_facts(const Annotation& annotation, const std::string& kind, const Monitor& monitor) {
   const Skeleton skeleton = skeleton_from_annotation(annotation);
-  Json::Object facts{{"kind", "annotation"}, {"photo", annotation.photo_file}, {"photo_sha256", annotation.photo_sha256},
+  Json::Object facts{{"kind", kind}, {"photo", annotation.photo_file}, {"photo_sha256", annotation.photo_sha256},
                      {"regions", static_cast<int>(annotation.regions.size())}, {"skeleton", skeleton_facts(skeleton)}};
   try {
     facts.push_back({"style", style_facts(skeleton, monitor)});
@@ -72,6 +71,13 @@ Json annotation_facts(const std::string& path, const Monitor& monitor) {
     facts.push_back({"style", std::string(error.what())});
   }
   return facts;
+}
+
+Json builtin_facts(const std::string& argument, const Monitor& monitor) {
+  ExemplarRequest request;
+  request.argument = argument;
+  const Exemplar exemplar = load_exemplar(request, monitor).exemplar;
+  return annotation_facts(exemplar.annotation, "built-in exemplar", monitor);
 }
 
 Json picture_facts(const std::string& path, const LoadLimits& limits, const Monitor& monitor) {
@@ -123,8 +129,8 @@ void add_info(CLI::App& root, Chosen& chosen) {
     bool limits = false;
   };
   const auto a = std::make_shared<Arguments>();
-  CLI::App* app = root.add_subcommand("info", "What is in a picture, annotation or skeleton; limits; version");
-  app->add_option("input", a->input, "Picture, annotation or skeleton");
+  CLI::App* app = root.add_subcommand("info", "What is in a picture, annotation, skeleton or built-in exemplar; limits; version");
+  app->add_option("input", a->input, "Picture, annotation, skeleton or builtin:KIND");
   app->add_flag("--limits", a->limits, "Show the limits instead");
   add_shared(*app, chosen.shared);
   app->footer("Examples:\n  ramify info river.ramify.json\n  ramify info out.png --json");
@@ -133,8 +139,9 @@ void add_info(CLI::App& root, Chosen& chosen) {
     chosen.work = [&chosen, a](const Monitor& monitor) {
       Json facts;
       if (a->limits) facts = limit_facts();
+      else if (is_builtin(a->input)) facts = builtin_facts(a->input, monitor);
       else if (is_picture_file(a->input)) facts = picture_facts(a->input, chosen.shared.load_limits(), monitor);
-      else if (is_annotation_file(a->input)) facts = annotation_facts(a->input, monitor);
+      else if (is_annotation_file(a->input)) facts = annotation_facts(load_annotation(a->input), "annotation", monitor);
       else {
         LoadedSkeleton loaded = load_skeleton(a->input);
         for (const std::string& note : loaded.notes) monitor.note(note);
@@ -186,6 +193,8 @@ void add_compare(CLI::App& root, Chosen& chosen) {
   app->add_option("first", request->first, "Exemplar, picture with recipe, or skeleton (the measure)")->required();
   app->add_option("second", request->second, "Exemplar, picture with recipe, or skeleton (what is judged)")->required();
   app->add_option("-o,--output", *output, "Report to write (.html .svg .json)")->required()->type_name("FILE");
+  app->add_option("--inputs", request->inputs, "Folder that holds the inputs of a picture's recipe, found there by content; "
+                  "may be given again")->type_name("FOLDER")->expected(1)->take_all();
   add_shared(*app, chosen.shared);
   app->footer("Examples:\n  ramify compare river.ramify.json new.png -o report.html\n"
               "  ramify compare neuron.swc grown.swc -o histograms.svg");

@@ -118,9 +118,9 @@ Outcome make_all(PictureArguments& a, const SharedOptions& shared, const std::st
   return outcome;
 }
 
-Outcome replay_painting(const Recipe& recipe, const std::string& input, const std::string& output, const SharedOptions& shared,
-                        const Monitor& monitor) {
-  PaintingRequest request = painting_from_recipe(recipe, folder_of(input));
+Outcome replay_painting(const Recipe& recipe, const std::vector<std::string>& folders, const std::string& output,
+                        const SharedOptions& shared, const Monitor& monitor) {
+  PaintingRequest request = painting_from_recipe(recipe, folders);
   request.limits = shared.load_limits();
   check_painting(request, output);
   if (request.options.animate && extension_of(output) != ".webp") {
@@ -190,12 +190,15 @@ void add_render(CLI::App& root, Chosen& chosen) {
 void add_replay(CLI::App& root, Chosen& chosen) {
   struct Arguments {
     std::string input, output;
+    std::vector<std::string> inputs;
     bool any_version = false;
   };
   const auto a = std::make_shared<Arguments>();
   CLI::App* app = root.add_subcommand("replay", "Make a picture again from the recipe inside it: the same bytes");
   app->add_option("input", a->input, "A picture made by ramify, its OUT.recipe.json, or a recipe")->required();
   app->add_option("-o,--output", a->output, "Picture to write")->required()->type_name("FILE");
+  app->add_option("--inputs", a->inputs, "Folder that holds the inputs of the recipe, found there by content; may be given again "
+                  "[the recipe's own folder, then RAMIFY_PHOTOS]")->type_name("FOLDER")->expected(1)->take_all();
   app->add_flag("--any-version", a->any_version, "Go on although another version made it");
   add_shared(*app, chosen.shared);
   app->footer("Example:\n  ramify replay out.png -o again.png && cmp out.png again.png");
@@ -210,11 +213,12 @@ void add_replay(CLI::App& root, Chosen& chosen) {
         throw InputError(printable(a->input, 300), "was made by ramify " + printable(recipe.version, 40) + ", this is " RAMIFY_VERSION
                          "; the bytes may differ, --any-version goes on all the same");
       }
-      if (recipe.verb == "paint") return replay_painting(recipe, a->input, a->output, shared, monitor);
+      std::vector<std::string> folders{folder_of(a->input)};
+      folders.insert(folders.end(), a->inputs.begin(), a->inputs.end());
+      if (recipe.verb == "paint") return replay_painting(recipe, folders, a->output, shared, monitor);
       check_extension("output", a->output, kPictures);
-      PictureRequest request = request_from_recipe(recipe, folder_of(a->input));
-      request.limits = request.exemplar.limits = shared.load_limits();
-      const LoadedRequest loaded = load_request(request, monitor.stage("load", 0.0, 0.3));
+      const LoadedRequest loaded = load_recipe_request(recipe, folders, shared.load_limits(), monitor.stage("load", 0.0, 0.3));
+      check_outputs({a->output}, loaded.files);
       const Picture picture = make_picture(loaded, recipe.seed, monitor.stage(recipe.verb, 0.3, 1.0));
       save_picture(loaded, picture, {a->output, "", "", "", "", ""}, monitor);
       return Outcome{{a->output}, {}, ""};

@@ -89,6 +89,13 @@ class Annotations(CliTest):
         change(value)
         return json.dumps(value)
 
+    def test_a_built_in_exemplar_is_described_like_a_file(self):
+        facts = json.loads(self.ok("info", "builtin:crack", "--json").stdout)
+        self.assertEqual(facts["kind"], "built-in exemplar")
+        self.assertGreater(facts["skeleton"]["branches"], 5)
+        self.assertGreater(facts["style"]["step_px"], 0)
+        self.fails(3, ["builtin:puddle", "lightning"], "info", "builtin:puddle")
+
     def test_a_bare_photo_names_trace(self):
         self.fails(3, "ramify trace", "synth", "crack.png", "-o", "a.png")
 

@@ -6,13 +6,14 @@ import os
 import pathlib
 import pty
 import resource
+import shutil
 import signal
 import subprocess
 import tempfile
 import time
 import unittest
 
-from harness import BIN, CliTest
+from harness import BIN, CliTest, png
 
 
 class SameBytes(CliTest):
@@ -36,6 +37,29 @@ class SameBytes(CliTest):
         self.ok("synth", self.photo, "--annotation", "auto", "-o", traced)
         self.ok("replay", traced, "-o", self.path("again.png"), env={"RAMIFY_PHOTOS": str(self.small)})
         self.assertEqual(self.digest(traced), self.digest(self.path("again.png")))
+
+    def test_replay_finds_inputs_in_the_folders_it_is_told(self):
+        out = self.path("a.png")
+        self.path("map.png", png(60, 45, lambda x, y: (255, 255, 255) if x > 20 else (90, 90, 90)))
+        self.ok("synth", self.exemplar, "-o", out, "--size", "120x90", "--density", "map.png")
+        moved = self.dir / "moved"
+        (moved / "maps").mkdir(parents=True)
+        shutil.copy(out, moved / "a.png")
+        shutil.move(self.path("map.png"), moved / "maps" / "renamed.png")
+        told = self.fails(3, ["--inputs", "moved"], "replay", "moved/a.png", "-o", "b.png")
+        self.assertIn("crack.ramify.json", told.stderr)
+        self.ok("replay", "moved/a.png", "-o", "b.png", "--inputs", self.small, "--inputs", "moved/maps")
+        self.assertEqual(self.digest(out), self.digest(self.path("b.png")))  # also the recipe inside: it keeps the old names
+        self.ok("compare", self.exemplar, "moved/a.png", "-o", "r.json", "--inputs", self.small, "--inputs", "moved/maps")
+
+    def test_replay_of_a_picture_from_another_photo(self):
+        photo = json.loads(pathlib.Path(self.exemplar).read_text())
+        photo["photo"]["sha256"] = "0" * 64
+        self.path("other.ramify.json", json.dumps(photo))
+        shutil.copy(self.photo, self.dir)
+        self.ok("synth", "other.ramify.json", "-o", "a.png", "--size", "120x90", "--allow-other-photo")
+        self.ok("replay", "a.png", "-o", "b.png")
+        self.assertEqual(self.digest(self.path("a.png")), self.digest(self.path("b.png")))
 
     def test_replay_reads_the_recipe_in_every_format(self):
         for kind in ("tif", "webp", "exr"):

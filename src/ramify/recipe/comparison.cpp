@@ -30,12 +30,13 @@ Side exemplar_side(const std::string& path, const LoadLimits& limits, const Moni
   return side;
 }
 
-Side picture_side(const std::string& path, const LoadLimits& limits, const Monitor& monitor) {
+Side picture_side(const std::string& path, const ComparisonRequest& request, const Monitor& monitor) {
+  const LoadLimits& limits = request.limits;
   const Recipe recipe = load_recipe(path, limits);
-  const std::string folder = fs::path(path).parent_path().string();
-  PictureRequest request = request_from_recipe(recipe, folder.empty() ? "." : folder);
-  request.limits = request.exemplar.limits = limits;
-  Picture picture = make_picture(load_request(request, monitor.stage("load", 0.0, 0.3)), recipe.seed, monitor.stage("make again", 0.3, 1.0));
+  std::vector<std::string> folders{fs::path(path).parent_path().string()};
+  folders.insert(folders.end(), request.inputs.begin(), request.inputs.end());
+  const LoadedRequest loaded = load_recipe_request(recipe, folders, limits, monitor.stage("load", 0.0, 0.3));
+  Picture picture = make_picture(loaded, recipe.seed, monitor.stage("make again", 0.3, 1.0));
   Side side;
   side.subject.skeleton = std::move(picture.skeleton);
   side.subject.color = load_image(path, limits).color;
@@ -43,13 +44,13 @@ Side picture_side(const std::string& path, const LoadLimits& limits, const Monit
   return side;
 }
 
-Side load_side(const std::string& path, const LoadLimits& limits, const Monitor& monitor) {
+Side load_side(const std::string& path, const ComparisonRequest& request, const Monitor& monitor) {
   Side side;
-  const std::string head = path.rfind("builtin:", 0) == 0 ? "" : read_file(path, std::size_t{1} << 31);
-  if (path.rfind("builtin:", 0) == 0 || head.find("\"ramify-annotation\"") != std::string::npos) {
-    side = exemplar_side(path, limits, monitor);
+  const std::string head = is_builtin(path) ? "" : read_file(path, std::size_t{1} << 31);
+  if (is_builtin(path) || head.find("\"ramify-annotation\"") != std::string::npos) {
+    side = exemplar_side(path, request.limits, monitor);
   } else if (head.find('\0') != std::string::npos) {
-    side = picture_side(path, limits, monitor);
+    side = picture_side(path, request, monitor);
   } else {
     LoadedSkeleton loaded = load_skeleton(path);
     for (const std::string& note : loaded.notes) monitor.note(note);
@@ -62,8 +63,8 @@ Side load_side(const std::string& path, const LoadLimits& limits, const Monitor&
 }  // namespace
 
 std::string comparison_text(const ComparisonRequest& request, const std::string& path, const Monitor& monitor) {
-  const Side first = load_side(request.first, request.limits, monitor.stage("first", 0.0, 0.2));
-  Side second = load_side(request.second, request.limits, monitor.stage("second", 0.2, 0.7));
+  const Side first = load_side(request.first, request, monitor.stage("first", 0.0, 0.2));
+  Side second = load_side(request.second, request, monitor.stage("second", 0.2, 0.7));
   if (!second.composite.color.empty()) second.subject.provenance = &second.composite;
   return report_text(make_report(first.subject, second.subject, Rng(1).child("report"), monitor.stage("report", 0.7, 1.0)), path);
 }

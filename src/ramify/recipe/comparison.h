@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "ramify/core/monitor.h"
 #include "ramify/image/image_io.h"
@@ -12,6 +13,7 @@ namespace ramify {
 struct ComparisonRequest {
   std::string first;   // the measure: exemplar, picture with recipe, or skeleton
   std::string second;  // what is judged
+  std::vector<std::string> inputs;  // further folders where the inputs of a picture's recipe may lie
   LoadLimits limits;
 };
 

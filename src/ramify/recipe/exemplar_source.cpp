@@ -35,8 +35,12 @@ std::string find_photo(const std::string& annotation_path, const Annotation& ann
                        (photos && *photos ? " (" + printable(photos) + ")" : " (which is not set)"));
 }
 
-void check_photo(const Annotation& annotation, const Photo& photo, const std::string& where, bool allow_other,
-                 const Monitor& monitor) {
+// `where` names the annotation in messages.
+void check_annotation(const Annotation& annotation, const Photo& photo, const std::string& where, bool allow_other,
+                      const Monitor& monitor) {
+  if (annotation.branches.empty()) {
+    throw InputError(where, "holds no branches; draw at least one, or find them with ramify trace");
+  }
   if (annotation.photo_sha256.empty() || annotation.photo_sha256 == photo.sha256) return;
   if (!allow_other) {
     throw InputError(where, "belongs to another picture: it was made for sha256 " + annotation.photo_sha256.substr(0, 12) +
@@ -73,16 +77,58 @@ void apply_regions(Exemplar& exemplar, const std::string& path, const LoadLimits
   }
 }
 
-LoadedExemplar load_builtin(const std::string& argument, const Monitor& monitor) {
-  const SyntheticKind kind = synthetic_kind(argument.substr(sizeof kBuiltin - 1));
+LoadedExemplar load_builtin(const ExemplarRequest& request, const Monitor& monitor) {
+  if (!request.annotation.empty()) {
+    throw OptionError("annotation", "'" + printable(request.annotation) + "'", "has no effect on " + printable(request.argument));
+  }
+  const SyntheticKind kind = synthetic_kind(request.argument.substr(sizeof kBuiltin - 1));
   SyntheticExemplar made = make_synthetic(kind, natural_size(kind), Rng(1), monitor);
   LoadedExemplar out;
   out.exemplar = make_exemplar(std::move(made.photo), std::move(made.annotation));
-  out.inputs.push_back({"exemplar", argument, ""});
+  out.inputs.push_back({"exemplar", request.argument, ""});
+  return out;
+}
+
+// An annotation that names its photo.
+LoadedExemplar load_annotated(const ExemplarRequest& request, const Monitor& monitor) {
+  const std::string named = printable(request.argument, 300);
+  if (!request.annotation.empty()) {
+    throw OptionError("annotation", "'" + printable(request.annotation) + "'", "has no effect: " + named + " is an annotation already");
+  }
+  Annotation annotation = load_annotation(request.argument);
+  const std::string photo_path = request.photo.empty() ? find_photo(request.argument, annotation) : request.photo;
+  Photo photo = load_photo(photo_path, request.limits, monitor);
+  check_annotation(annotation, photo, named, request.allow_other_photo, monitor);
+  LoadedExemplar out;
+  out.inputs.push_back({"exemplar", file_name(request.argument), sha256_hex(read_file(request.argument, 1u << 28))});
+  out.inputs.push_back({"photo", photo.name, photo.sha256});
+  out.files = {request.argument, photo_path};
+  out.exemplar = make_exemplar(std::move(photo), std::move(annotation));
+  return out;
+}
+
+// A photo with an annotation or a skeleton, or traced.
+LoadedExemplar load_pair(const ExemplarRequest& request, const Monitor& monitor) {
+  const bool traced = request.annotation == "auto";
+  Photo photo = load_photo(request.argument, request.limits, monitor);
+  Annotation annotation = annotation_for(photo, request, monitor);
+  check_annotation(annotation, photo, printable(traced ? request.argument : request.annotation, 300), request.allow_other_photo, monitor);
+  LoadedExemplar out;
+  out.inputs.push_back({"exemplar", photo.name, photo.sha256});
+  out.files.push_back(request.argument);
+  if (traced) {
+    out.inputs.push_back({"annotation", "auto", ""});
+  } else {
+    out.inputs.push_back({"annotation", file_name(request.annotation), sha256_hex(read_file(request.annotation, 1u << 28))});
+    out.files.push_back(request.annotation);
+  }
+  out.exemplar = make_exemplar(std::move(photo), std::move(annotation));
   return out;
 }
 
 }  // namespace
+
+bool is_builtin(const std::string& argument) { return argument.rfind(kBuiltin, 0) == 0; }
 
 bool is_json_file(const std::string& path) {
   const std::string text = read_file(path, std::size_t{1} << 31);
@@ -106,44 +152,9 @@ Photo load_photo(const std::string& path, const LoadLimits& limits, const Monito
 }
 
 LoadedExemplar load_exemplar(const ExemplarRequest& request, const Monitor& monitor) {
-  if (request.argument.rfind(kBuiltin, 0) == 0) {
-    if (!request.annotation.empty()) {
-      throw OptionError("annotation", "'" + printable(request.annotation) + "'", "has no effect on " + request.argument);
-    }
-    return load_builtin(request.argument, monitor);
-  }
-  LoadedExemplar out;
-  Annotation annotation;
-  Photo photo;
-  if (is_json_file(request.argument)) {
-    if (!request.annotation.empty()) {
-      throw OptionError("annotation", "'" + printable(request.annotation) + "'",
-                        "has no effect: " + printable(request.argument) + " is an annotation already");
-    }
-    annotation = load_annotation(request.argument);
-    const std::string photo_path = find_photo(request.argument, annotation);
-    photo = load_photo(photo_path, request.limits, monitor);
-    out.inputs.push_back({"exemplar", file_name(request.argument), sha256_hex(read_file(request.argument, 1u << 28))});
-    out.inputs.push_back({"photo", photo.name, photo.sha256});
-    out.files = {request.argument, photo_path};
-  } else {
-    photo = load_photo(request.argument, request.limits, monitor);
-    annotation = annotation_for(photo, request, monitor);
-    out.inputs.push_back({"exemplar", photo.name, photo.sha256});
-    out.files.push_back(request.argument);
-    if (request.annotation == "auto") {
-      out.inputs.push_back({"annotation", "auto", ""});
-    } else {
-      out.inputs.push_back({"annotation", file_name(request.annotation), sha256_hex(read_file(request.annotation, 1u << 28))});
-      out.files.push_back(request.annotation);
-    }
-  }
-  const std::string named = printable(request.annotation.empty() || request.annotation == "auto" ? request.argument : request.annotation, 300);
-  if (annotation.branches.empty()) {
-    throw InputError(named, "holds no branches; draw at least one, or find them with ramify trace");
-  }
-  check_photo(annotation, photo, named, request.allow_other_photo, monitor);
-  out.exemplar = make_exemplar(std::move(photo), std::move(annotation));
+  LoadedExemplar out = is_builtin(request.argument)     ? load_builtin(request, monitor)
+                       : is_json_file(request.argument) ? load_annotated(request, monitor)
+                                                        : load_pair(request, monitor);
   if (!request.regions.empty()) {
     apply_regions(out.exemplar, request.regions, request.limits);
     out.inputs.push_back({"regions", file_name(request.regions), sha256_hex(read_file(request.regions, std::size_t{1} << 30))});

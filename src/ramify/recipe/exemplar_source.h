@@ -16,6 +16,7 @@ namespace ramify {
 
 struct ExemplarRequest {
   std::string argument;           // NAME.ramify.json, a photo, or builtin:KIND
+  std::string photo;              // of an annotation; empty = looked for beside it, then in RAMIFY_PHOTOS
   std::string annotation;         // for a photo: annotation (.json), skeleton (.swc, .json) or "auto"
   std::string regions;            // grey map of roles (docs/cli.md), or empty
   bool allow_other_photo = false; // use a photo whose sha256 is not the annotation's
@@ -33,6 +34,9 @@ LoadedExemplar load_exemplar(const ExemplarRequest& request, const Monitor& moni
 
 // Reads a photo with its sha256, name and depth; its warnings become notes.
 Photo load_photo(const std::string& path, const LoadLimits& limits, const Monitor& monitor);
+
+// Whether the argument names one of ramify's own exemplars, "builtin:KIND".
+bool is_builtin(const std::string& argument);
 
 // Whether the file starts like a JSON object.
 bool is_json_file(const std::string& path);

@@ -65,21 +65,25 @@ std::optional<std::string> find_in(const fs::path& folder, const RecipeInput& in
 
 }  // namespace
 
-std::string find_input(const RecipeInput& input, const std::string& folder) {
+std::string find_input(const RecipeInput& input, const std::vector<std::string>& folders) {
   if (input.sha256.empty()) return input.file;  // one of ramify's own exemplars
+  bool other_content = false;
+  std::string searched;
+  for (const std::string& folder : folders) {
+    const std::string named = folder.empty() ? "." : folder;
+    if (const auto path = find_in(named, input, other_content)) return *path;
+    searched += "in " + printable(named, 300) + ", ";
+  }
   const char* photos = std::getenv("RAMIFY_PHOTOS");
   const bool has_photos = photos && *photos;
-  bool other_content = false;
-  const std::string beside = folder.empty() ? "." : folder;
-  if (const auto path = find_in(beside, input, other_content)) return *path;
   if (has_photos) {
     if (const auto path = find_in(photos, input, other_content)) return *path;
   }
-  throw InputError(
-      printable(input.file, 300),
-      "the " + input.role + " with sha256 " + input.sha256.substr(0, 12) + "… is neither in " + printable(beside, 300) +
-          " nor in RAMIFY_PHOTOS" + (has_photos ? " (" + printable(photos, 300) + ")" : " (which is not set)") +
-          (other_content ? "; the file of this name has other content" : "") + "; put the file there and run again");
+  throw InputError(printable(input.file, 300),
+                   "the " + input.role + " with sha256 " + input.sha256.substr(0, 12) + "… was not found " + searched +
+                       "in RAMIFY_PHOTOS" + (has_photos ? " (" + printable(photos, 300) + ")" : " (which is not set)") +
+                       (other_content ? "; the file of this name has other content" : "") +
+                       "; name the folder that holds it with --inputs");
 }
 
 }  // namespace ramify

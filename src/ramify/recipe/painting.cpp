@@ -175,15 +175,15 @@ void save_animation(const LoadedPainting& painting, const std::string& path, con
   write_file(path, encode_animation(painting.size, o.frames, frame, options, monitor));
 }
 
-PaintingRequest painting_from_recipe(const Recipe& recipe, const std::string& folder) {
+PaintingRequest painting_from_recipe(const Recipe& recipe, const std::vector<std::string>& folders) {
   PaintingRequest request;
   for (OptionField& field : describe(request.options)) {
     const auto value = recipe.options.find(field.name);
     if (value != recipe.options.end()) set_text(field, value->second);
   }
   for (const RecipeInput& input : recipe.inputs) {
-    if (input.role == "skeleton") request.skeleton = find_input(input, folder);
-    if (input.role == "photo") request.over = find_input(input, folder);
+    if (input.role == "skeleton") request.skeleton = find_input(input, folders);
+    if (input.role == "photo") request.over = find_input(input, folders);
   }
   return request;
 }

@@ -58,6 +58,7 @@ void save_animation(const LoadedPainting& painting, const std::string& path, con
 // The moment frame i shows.
 double growth_of_frame(const PaintingOptions& options, int frame);
 
-PaintingRequest painting_from_recipe(const Recipe& recipe, const std::string& folder);
+// Finds the inputs by their sha256 in `folders` and in RAMIFY_PHOTOS and sets every option. Throws InputError.
+PaintingRequest painting_from_recipe(const Recipe& recipe, const std::vector<std::string>& folders);
 
 }  // namespace ramify

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "ramify/core/atomic_file.h"
+#include "ramify/core/parallel.h"
 #include "ramify/core/version.h"
 #include "ramify/geometry/polyline.h"
 #include "ramify/geometry/svg_path.h"
@@ -205,6 +206,7 @@ void check_request(PictureRequest& request) {
 }
 
 LoadedRequest load_request(const PictureRequest& request, const Monitor& monitor) {
+  const CancelScope scope(monitor);
   LoadedRequest loaded;
   loaded.request = request;
   check_request(loaded.request);
@@ -239,6 +241,7 @@ LoadedRequest load_request(const PictureRequest& request, const Monitor& monitor
 }
 
 Picture make_picture(const LoadedRequest& loaded, std::uint64_t seed, const Monitor& monitor) {
+  const CancelScope scope(monitor);
   const StageOptions& options = loaded.request.options;
   const Exemplar& exemplar = loaded.source.exemplar;
   const bool picture_wanted = loaded.request.verb != "grow";
@@ -271,7 +274,7 @@ Recipe load_recipe(const std::string& path, const LoadLimits& limits) {
   throw InputError(printable(path, 300), "holds no ramify recipe: it was not made by ramify, or another program saved it since");
 }
 
-PictureRequest request_from_recipe(const Recipe& recipe, const std::string& folder) {
+PictureRequest request_from_recipe(const Recipe& recipe, const std::vector<std::string>& folders) {
   PictureRequest request;
   request.verb = recipe.verb;
   for (OptionField& field : describe(request.options)) {
@@ -279,8 +282,12 @@ PictureRequest request_from_recipe(const Recipe& recipe, const std::string& fold
     if (value != recipe.options.end()) set_text(field, value->second);
   }
   for (const RecipeInput& input : recipe.inputs) {
-    const std::string path = find_input(input, folder);
+    const std::string path = find_input(input, folders);
     if (input.role == "exemplar") request.exemplar.argument = path;
+    if (input.role == "photo") {
+      request.exemplar.photo = path;
+      request.exemplar.allow_other_photo = true;  // the recipe says which photo was used, whatever the annotation says
+    }
     if (input.role == "annotation") request.exemplar.annotation = path;
     if (input.role == "regions") request.exemplar.regions = path;
     if (input.role == "density") request.density = path;
@@ -288,6 +295,15 @@ PictureRequest request_from_recipe(const Recipe& recipe, const std::string& fold
     if (input.role == "skeleton") request.skeleton = path;
   }
   return request;
+}
+
+LoadedRequest load_recipe_request(const Recipe& recipe, const std::vector<std::string>& folders, const LoadLimits& limits,
+                                  const Monitor& monitor) {
+  PictureRequest request = request_from_recipe(recipe, folders);
+  request.limits = request.exemplar.limits = limits;
+  LoadedRequest loaded = load_request(request, monitor);
+  loaded.inputs = recipe.inputs;
+  return loaded;
 }
 
 }  // namespace ramify

@@ -65,7 +65,12 @@ Picture make_picture(const LoadedRequest& loaded, std::uint64_t seed, const Moni
 // The recipe stored in a picture, in its .recipe.json, or in a file of its own.
 Recipe load_recipe(const std::string& path, const LoadLimits& limits);
 
-// Finds the inputs by their sha256 in `folder` and in RAMIFY_PHOTOS and sets every option.
-PictureRequest request_from_recipe(const Recipe& recipe, const std::string& folder);
+// Finds the inputs by their sha256 in `folders` and in RAMIFY_PHOTOS and sets every option. Throws InputError.
+PictureRequest request_from_recipe(const Recipe& recipe, const std::vector<std::string>& folders);
+
+// load_request of a recipe's request. What is made of it carries the recipe's own inputs, so that the bytes are the same
+// although the files may have other names by now.
+LoadedRequest load_recipe_request(const Recipe& recipe, const std::vector<std::string>& folders, const LoadLimits& limits,
+                                  const Monitor& monitor);
 
 }  // namespace ramify

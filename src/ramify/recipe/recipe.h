@@ -35,9 +35,9 @@ Recipe parse_recipe(const std::string& json, const std::string& name);
 // Every field's value by name.
 std::map<std::string, std::string> option_values(const std::vector<OptionField>& fields);
 
-// The path of the regular file with this sha256: the one of this name in `folder`, then any with the same extension there,
-// then the same in RAMIFY_PHOTOS. Digests are remembered for the life of the program. For builtin: just the name.
-// Throws InputError naming the file, its sha256 and where it was looked for.
-std::string find_input(const RecipeInput& input, const std::string& folder);
+// The path of the regular file with this sha256: in each folder in turn, and then in RAMIFY_PHOTOS, the one of this name,
+// then any with the same extension. An empty folder is the current one. Digests are remembered for the life of the
+// program. For builtin: just the name. Throws InputError naming the file, its sha256 and where it was looked for.
+std::string find_input(const RecipeInput& input, const std::vector<std::string>& folders);
 
 }  // namespace ramify
