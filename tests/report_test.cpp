@@ -175,6 +175,27 @@ TEST_CASE("widths measured again tell how far a skeleton overstates them") {
   CHECK(right.deviation < 0.1);
 }
 
+TEST_CASE("a rebuilt picture may differ by 4 in tone and by 7 where light is emitted") {
+  const ReportSubject a = subject("a", 1);
+  ReportSubject b = a;
+  for (Rgb& c : b.color.pixels()) c = c + Rgb{0.055f, 0.055f, 0.055f};
+  const auto verdict = [&](CompositeMode mode) {
+    Composite composite;
+    composite.composite = mode;
+    composite.owner = LabelImage(b.color.size(), kNone);
+    composite.source = Image<Eigen::Vector2f>(b.color.size(), Eigen::Vector2f(0, 0));
+    b.provenance = &composite;
+    const Report report = make_report(a, b, Rng(1), Monitor());
+    const Figure& difference = figure(report.picture, "lowpass_difference");
+    CHECK(difference.result > 4.0);
+    CHECK(difference.result < 7.0);
+    return difference.verdict;
+  };
+  CHECK(verdict(CompositeMode::Paste) == Verdict::Fail);
+  CHECK(verdict(CompositeMode::Absorb) == Verdict::Fail);
+  CHECK(verdict(CompositeMode::Emit) == Verdict::Pass);
+}
+
 TEST_CASE("a report is written in its three forms") {
   ReportSubject a = subject("photo <b>.png", 1), b = subject("result.png", 2);
   Composite composite;

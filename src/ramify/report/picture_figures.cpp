@@ -167,7 +167,8 @@ std::vector<Figure> compare_pictures(const PictureSubject& exemplar, const Pictu
   if (same_lines(exemplar.skeleton, result.skeleton)) {
     Figure rebuilt{"lowpass_difference", "low-pass colour difference at the branches, median", "dE", {},
                    measure_lowpass_difference(exemplar.color, result.color, zone_b), {}, "", {}};
-    figures.push_back(judged(rebuilt, 0.0, 7.0, "at most 4, where light is emitted 7"));
+    const double most = provenance.glow ? 7.0 : 4.0;  // PICTURES 10
+    figures.push_back(judged(rebuilt, 0.0, most, provenance.glow ? "at most 7, as light is emitted" : "at most 4"));
   }
   const WidthRatio own_width = measure_width_ratio(exemplar.color, exemplar.skeleton, provenance.glow);
   const WidthRatio width = measure_width_ratio(result.color, result.skeleton, provenance.glow);

@@ -36,8 +36,7 @@ struct Report {
   std::vector<ReportPicture> crops;     // the worst seams, enlarged
 };
 
-// Figures of structure when both have a skeleton, of pictures when both have skeleton and picture. Throws InputError when
-// neither is the case.
+// Figures of structure, and of pictures when both have one. Throws InputError when either has no skeleton.
 Report make_report(const ReportSubject& exemplar, const ReportSubject& result, Rng rng, const Monitor& monitor);
 
 // The number of figures that failed.
