@@ -176,6 +176,9 @@ void add_convert(CLI::App& root, Chosen& chosen) {
         if (image.alpha.empty()) save_image(a->output, image.color, save);
         else save_image(a->output, image.color, image.alpha, save);
       } else {
+        if (has_extension(a->output, kPictureExtensions)) {
+          throw InputError(printable(a->input, 300), "is no picture; skeletons and annotations become .json, .swc, .svg or .geojson");
+        }
         check_skeleton_name(a->output);
         const LoadedSkeleton loaded = load_any_skeleton(a->input);
         for (const std::string& note : loaded.notes) monitor.note(note);

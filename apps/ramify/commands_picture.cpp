@@ -17,7 +17,6 @@
 namespace ramify::app {
 namespace {
 
-const std::vector<std::string> kPictures{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".webp"};
 const std::vector<std::string> kReplayed{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".webp", ".svg"};
 const std::vector<std::string> kSkeletons{".json", ".swc", ".svg", ".geojson"};
 
@@ -150,7 +149,7 @@ void add_synth(CLI::App& root, Chosen& chosen) {
               "  ramify synth river.ramify.json --seed 7 --count 9 -o delta.png --mask delta_mask.png\n"
               "  ramify synth photo.jpg --annotation auto --density letter.png -o letter.png");
   app->callback([&chosen, a] {
-    chosen.work = [&chosen, a](const Monitor& m) { return make_all(*a, chosen.shared, "synth", kPictures, m); };
+    chosen.work = [&chosen, a](const Monitor& m) { return make_all(*a, chosen.shared, "synth", kPictureExtensions, m); };
   });
 }
 
@@ -183,7 +182,7 @@ void add_render(CLI::App& root, Chosen& chosen) {
   app->footer("Examples:\n  ramify render builtin:lightning river.swc -o lightning_river.png\n"
               "  ramify render crack.ramify.json grown.json --background new -o crack.png");
   app->callback([&chosen, a] {
-    chosen.work = [&chosen, a](const Monitor& m) { return make_all(*a, chosen.shared, "render", kPictures, m); };
+    chosen.work = [&chosen, a](const Monitor& m) { return make_all(*a, chosen.shared, "render", kPictureExtensions, m); };
   });
 }
 
@@ -216,7 +215,7 @@ void add_replay(CLI::App& root, Chosen& chosen) {
       std::vector<std::string> folders{folder_of(a->input)};
       folders.insert(folders.end(), a->inputs.begin(), a->inputs.end());
       if (recipe.verb == "paint") return replay_painting(recipe, folders, a->output, shared, monitor);
-      check_extension("output", a->output, kPictures);
+      check_extension("output", a->output, kPictureExtensions);
       const LoadedRequest loaded = load_recipe_request(recipe, folders, shared.load_limits(), monitor.stage("load", 0.0, 0.3));
       check_outputs({a->output}, loaded.files);
       const Picture picture = make_picture(loaded, recipe.seed, monitor.stage(recipe.verb, 0.3, 1.0));

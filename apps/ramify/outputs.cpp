@@ -34,8 +34,12 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
+bool has_extension(const std::string& path, const std::vector<std::string>& allowed) {
+  return std::find(allowed.begin(), allowed.end(), extension_of(path)) != allowed.end();
+}
+
 void check_extension(const std::string& option, const std::string& path, const std::vector<std::string>& allowed) {
-  if (std::find(allowed.begin(), allowed.end(), extension_of(path)) != allowed.end()) return;
+  if (has_extension(path, allowed)) return;
   std::string list;
   for (const std::string& extension : allowed) list += (list.empty() ? "" : ", ") + extension;
   throw OptionError(option, "'" + printable(path, 200) + "'", "the name must end in one of " + list);

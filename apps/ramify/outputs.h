@@ -10,6 +10,10 @@ namespace ramify::app {
 // "out.png" for picture 3 of several: "out_0003.png".
 std::string numbered(const std::string& path, int index);
 
+inline const std::vector<std::string> kPictureExtensions{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".webp"};
+
+bool has_extension(const std::string& path, const std::vector<std::string>& allowed);
+
 // Throws OptionError for a name whose extension is none of `allowed` (".png"), so that long work does not end in a typo.
 void check_extension(const std::string& option, const std::string& path, const std::vector<std::string>& allowed);
 

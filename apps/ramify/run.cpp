@@ -35,17 +35,18 @@ extern "C" void handle_stop(int signal) {
   const int error = errno;
   if (g_signal.exchange(signal) != 0) {
     remove_unfinished_files();
-    _exit(128 + signal);
+    _exit(signal == SIGXCPU ? static_cast<int>(ExitCode::Limit) : 128 + signal);
   }
   g_monitor.cancel();
   if (sem_t* wake = g_wake) sem_post(wake);
   errno = error;
 }
 
-// A verb was stopped by a signal or by --timeout.
+// A verb was stopped by a signal, by --timeout or by a limit of processor time.
 int report_stop(const SharedOptions& shared) {
   const std::string kept = "; no file was left unfinished";
   if (g_timed_out) return report_error(shared, ExitCode::Limit, "stopped after --timeout " + number_text(shared.timeout) + " s" + kept);
+  if (g_signal == SIGXCPU) return report_error(shared, ExitCode::Limit, "stopped by the system's limit of processor time (ulimit -t)" + kept);
   return report_error(shared, g_signal == SIGINT ? ExitCode::Interrupted : ExitCode::Terminated, "stopped" + kept);
 }
 
@@ -53,7 +54,7 @@ void install_handlers() {
   struct sigaction action {};
   action.sa_handler = handle_stop;
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) sigaction(signal, &action, nullptr);
   struct sigaction ignore {};
   ignore.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &ignore, nullptr);

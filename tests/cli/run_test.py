@@ -140,6 +140,12 @@ class Limits(CliTest):
     def test_timeout(self):
         self.fails(5, "--timeout", "synth", "builtin:river", "--count", "1000", "-o", self.path("a.png"), "--timeout", "0.2")
 
+    def test_a_limit_of_processor_time(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_CPU, (1, 5))
+        self.fails(5, "processor time", "synth", "builtin:river", "--count", "1000", "-o", self.path("a.png"), "--no-clobber",
+                   "--threads", "1", "--size", "4000x4000", preexec_fn=limit)
+
     def test_little_memory_is_an_error_or_enough(self):
         seen = set()
         for mebibytes in range(150, 1250, 100):

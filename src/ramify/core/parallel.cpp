@@ -5,7 +5,6 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -74,8 +73,8 @@ void parallel_for(int count, const std::function<void(int)>& body, int grain) {
   std::vector<std::thread> threads;
   try {
     for (int t = 1; t < workers; ++t) threads.emplace_back(work);
-  } catch (const std::system_error&) {
-    // The system gives no more threads: go on with those we have.
+  } catch (const std::exception&) {
+    // The system gives no more threads, or no memory for one: go on with those we have, which must be joined.
   }
   work();
   for (std::thread& thread : threads) thread.join();
