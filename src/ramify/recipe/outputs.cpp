@@ -27,6 +27,7 @@ void save_intermediates(const LoadedRequest& loaded, const Picture& picture, con
   const SkeletonMasks masks = draw_masks(picture.skeleton, picture.skeleton.size);
   save_mask16(name("branch_id.png"), label_picture(masks.branch_id));
   save_mask16(name("order.png"), label_picture(masks.order));
+  write_file(name("furcations.json"), furcations_json(picture.skeleton));
   save_mask16(name("owner.png"), label_picture(picture.composite.owner));
   ScalarImage x(picture.composite.source.size()), y(picture.composite.source.size());
   for (std::size_t i = 0; i < x.pixels().size(); ++i) {
