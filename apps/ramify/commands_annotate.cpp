@@ -17,8 +17,6 @@
 namespace ramify::app {
 namespace {
 
-const std::vector<std::string> kPictures{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".webp"};
-
 bool keep_existing(const Chosen& chosen, const std::string& output) {
   return chosen.shared.no_clobber && file_exists(output);
 }
@@ -76,7 +74,7 @@ void add_rectify(CLI::App& root, Chosen& chosen) {
               "  ramify rectify road.jpg --corners \"310,80 700,95 990,640 20,610\" --back new_flat.png -o new_road.png");
   app->callback([&chosen, a] {
     chosen.work = [&chosen, a](const Monitor& monitor) {
-      check_extension("output", a->output, kPictures);
+      check_extension("output", a->output, kPictureExtensions);
       const std::vector<Vec2> points = parse_points("corners", a->corners);
       if (points.size() != 4) {
         throw OptionError("corners", "'" + printable(a->corners, 100) + "'", "expected four points, got " + std::to_string(points.size()));
@@ -120,7 +118,7 @@ void add_complete(CLI::App& root, Chosen& chosen) {
   app->footer("Example:\n  ramify complete wall.jpg --mask crack_mask.png -o wall_without_crack.png");
   app->callback([&chosen, a] {
     chosen.work = [&chosen, a](const Monitor& monitor) {
-      check_extension("output", a->output, kPictures);
+      check_extension("output", a->output, kPictureExtensions);
       check_options(describe(a->options));
       check_outputs({a->output}, {a->photo, a->mask});
       if (keep_existing(chosen, a->output)) return Outcome{{}, {a->output}, ""};

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "ramify/core/json.h"
+#include "ramify/core/options.h"
 #include "ramify/style/style.h"
 
 namespace ramify {
@@ -135,6 +136,7 @@ class Reader {
 };
 
 constexpr double kHuge = 1e9;
+constexpr double kWidest = 1e4;     // px
 constexpr double kLeastStep = 0.05;  // px; growth lays its grids by steps and spacings, which must not be all but nothing
 
 Histogram read_histogram(const Reader& in) {
@@ -167,7 +169,9 @@ BendingModel read_bending(const Reader& in) {
   const Reader vertices = in["vertices"];
   for (std::size_t i = 0; i < vertices.list_size(); ++i) {
     const std::vector<double> v = vertices[i].reals(5);
-    if (!(v[3] > 0.0) || !(v[4] > 0.0)) vertices[i].fail("radii must be positive");
+    for (const double radius : {v[3], v[4]}) {
+      if (!(radius > 0.0) || radius > kWidest) vertices[i].fail("radii must lie between 0 and " + number_text(kWidest));
+    }
     m.point.emplace_back(v[0], v[1]);
     m.alpha.push_back(v[2]);
     m.radius.push_back(v[3]);
