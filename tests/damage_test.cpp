@@ -101,7 +101,7 @@ TEST_CASE("garbled annotations are refused or make a sound exemplar") {
   annotation.regions = {{RegionRole::Outside, {{0, 0}, {30, 0}, {0, 30}}}};
   annotation.links = {{{1, 3}, {0, 5}}};
   const ColorImage picture(160, 120, Rgb{0.5f, 0.5f, 0.5f});
-  const Outcome outcome = try_garbled(annotation_text(annotation), 3000, [&](const std::string& text) {
+  const Outcome outcome = try_garbled(annotation_text(annotation), 1200, [&](const std::string& text) {
     Annotation read = parse_annotation(text, "a.ramify.json");
     Photo photo;
     photo.color = picture;
@@ -109,8 +109,8 @@ TEST_CASE("garbled annotations are refused or make a sound exemplar") {
     exemplar.skeleton.check();
     if (!(exemplar.unit_radius > 0.0) || !std::isfinite(exemplar.unit_radius)) FAIL("a unit radius of " << exemplar.unit_radius);
   });
-  CHECK(outcome.read > 100);
-  CHECK(outcome.refused > 1000);
+  CHECK(outcome.read > 50);
+  CHECK(outcome.refused > 400);
 }
 
 TEST_CASE("garbled styles are refused or grow") {
