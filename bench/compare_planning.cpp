@@ -217,7 +217,7 @@ void grow_fractal(int runs) {
       Plan plan = plan_paths(lattice, std::vector<int>{lattice.node(256, 256)});
       endpoints = 0;
       double wanted = 12.0;
-      for (double distance = 900.0; distance > 4.0; distance /= 2.0, wanted *= 2.3) {
+      for (double distance = 900.0; distance > 4.0; distance /= 2.0, wanted *= 2.4) {
         for (int tries = 0, placed = 0; placed < wanted && tries < 60 * wanted; ++tries) {
           const int node = rng.below(lattice.count());
           const double cost = path_cost(plan, node);

@@ -47,9 +47,9 @@ struct Lattice {
   EdgeCost edge_cost = EdgeCost::Mean;
   DiagonalLength diagonal = DiagonalLength::Geometric;
   bool cut_corners = true;  // false: a diagonal needs all nodes of the box it spans, so paths keep inside thin walls
-  std::variant<HashedWeights, WholeWeights, RealWeights> weights;
-  std::vector<std::uint8_t> allowed;     // one a node, 0 = forbidden (letters, the inside of a rock); empty = all allowed
-  std::vector<double> direction_factor;  // one a step (> 0), from parent to child; empty = all 1. Lightning: upward dear
+  std::variant<HashedWeights, WholeWeights, RealWeights> weights{};
+  std::vector<std::uint8_t> allowed{};     // one a node, 0 = forbidden (letters, the inside of a rock); empty = all allowed
+  std::vector<double> direction_factor{};  // one a step (> 0), from parent to child; empty = all 1. Lightning: upward dear
 
   int count() const { return width * height * depth; }
   int node(int x, int y, int z = 0) const { return x + width * (y + height * z); }

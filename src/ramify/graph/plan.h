@@ -21,11 +21,11 @@
 namespace ramify {
 
 struct PlanOptions {
-  MetricOptions metric;
+  MetricOptions metric{};
   // Truncation: nodes that cost more stay unreached. In the unit of weights; Partial, Full: of the peak; Mix: of the mix.
   double max_cost = std::numeric_limits<double>::infinity();
   // Early stop: when all these nodes have their final cost (or cannot be reached); empty = go on to the end.
-  std::vector<int> endpoints;
+  std::vector<int> endpoints{};
 };
 
 // Ticks along a path, and of its dearest edge (without lengths).
