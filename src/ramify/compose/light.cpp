@@ -2,6 +2,7 @@
 #include "ramify/compose/light.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -14,17 +15,51 @@
 namespace ramify {
 namespace {
 
+// How strongly the photo's branches of about this radius (px) glow beside the model. What burns out looks equally bright,
+// but thick strokes burn out further.
+double usual_gain(const LightSource& source, const LightLayer& layer, double radius) {
+  constexpr double kAlike = 0.25;  // log ratio of radii
+  double sum = 0.0, weight = 0.0;
+  for (const Strand& s : source.strands) {
+    for (int t = s.first; t < s.count(); t += 4) {
+      const double w = std::exp(-0.5 * std::pow(std::log(s.radii[t] / radius) / kAlike, 2)) + 1e-9;
+      sum += w * sample_bilinear(layer.glow_gain, s.points[t]), weight += w;
+    }
+  }
+  return weight > 0.0 ? sum / weight : 1.0;
+}
+
+// That gain on every pixel of the new branches; where they overlap the larger.
+ScalarImage gain_by_width(const LightSource& source, const LightLayer& layer, const std::vector<Strand>& targets, Size size) {
+  constexpr double kLeast = 0.25, kStep = 0.1;  // px, log ratio: the table's first radius and its step
+  std::vector<float> table;
+  for (int k = 0; k < 64; ++k) table.push_back(static_cast<float>(usual_gain(source, layer, kLeast * std::exp(kStep * k))));
+  ScalarImage gain(size);
+  for (const Strand& s : targets) {
+    for (int t = 0; t < s.count(); ++t) {
+      const double r = std::max(kLeast, s.radii[t]), reach = 1.3 * r + 1.0;
+      const float g = table[std::clamp(static_cast<int>(std::lround(std::log(r / kLeast) / kStep)), 0, 63)];
+      const int cx = static_cast<int>(std::lround(s.points[t].x())), cy = static_cast<int>(std::lround(s.points[t].y()));
+      const int half = static_cast<int>(std::ceil(reach));
+      for (int y = std::max(0, cy - half); y <= std::min(size.height - 1, cy + half); ++y) {
+        for (int x = std::max(0, cx - half); x <= std::min(size.width - 1, cx + half); ++x) {
+          if ((Vec2(x, y) - s.points[t]).norm() <= reach) gain(x, y) = std::max(gain(x, y), g);
+        }
+      }
+    }
+  }
+  return gain;
+}
+
 // Linear light inside the new branches: what was laid plus the far glow that was taken off where it came from.
-ColorImage new_core(const LightLayer& layer, const WovenLight& woven, const std::vector<Strand>& targets) {
-  const Mask inside = strand_mask(targets, woven.value.size(), 1.3, 1.0);
+ColorImage new_core(const LightLayer& layer, const LightSource& source, const WovenLight& woven, const std::vector<Strand>& targets) {
+  const ScalarImage gain = gain_by_width(source, layer, targets, woven.value.size());
   ColorImage core(woven.value.size());
   parallel_for(core.height(), [&](int y) {
     for (int x = 0; x < core.width(); ++x) {
-      if (!inside(x, y) || woven.owner(x, y) == kNone) continue;
-      const Vec2 from = woven.source(x, y).cast<double>();
-      const Rgb glow = sample_bilinear(layer.glow, from);
-      const float gain = sample_bilinear(layer.glow_gain, from);
-      for (int c = 0; c < 3; ++c) core(x, y)[c] = gain * std::min(1.0f, woven.value(x, y)[c] + glow[c]);
+      if (gain(x, y) <= 0.0f || woven.owner(x, y) == kNone) continue;
+      const Rgb glow = sample_bilinear(layer.glow, woven.source(x, y).cast<double>());
+      for (int c = 0; c < 3; ++c) core(x, y)[c] = gain(x, y) * std::min(1.0f, woven.value(x, y)[c] + glow[c]);
     }
   }, 32);
   return core;
@@ -102,7 +137,7 @@ Composite compose_light(const LightScene& scene, const Skeleton& exemplar, const
   WovenLight woven = weave_light(source, layer, targets, scene.background.size(), rules, options.leave_out, rng,
                                  monitor.stage("light", 0.2, 0.9));
   const bool emits = mode == CompositeMode::Emit;
-  const ColorImage core = emits ? new_core(layer, woven, targets) : ColorImage();
+  const ColorImage core = emits ? new_core(layer, source, woven, targets) : ColorImage();
   const ScalarImage inside = emits ? own_glow(woven, targets) : own_grain(layer, woven);
   Composite result;
   result.color = apply_light(layer, scene.background, woven.value, core, inside);
