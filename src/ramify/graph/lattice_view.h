@@ -29,11 +29,10 @@ struct RealTicks {
   static constexpr bool kPerEdge = false, kHashed = false;
   std::uint32_t half(std::uint32_t node) const { return rounded(weight[node]); }
   std::uint32_t half_of(double w) const { return rounded(static_cast<float>(w)); }
-  // Forbidden nodes are asked too, and may weigh anything: bounded, so that the conversion is defined.
   std::uint32_t rounded(float w) const {
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::max(1.0f, std::min(kMost, w * scale + 0.5f))));
+    const std::uint32_t ticks = static_cast<std::uint32_t>(static_cast<std::int32_t>(w * scale + 0.5f));
+    return ticks > 1 ? ticks : 1;
   }
-  static constexpr float kMost = 0x1p29f;
 };
 template <bool PerEdge>
 struct HashedTicks {
