@@ -58,7 +58,7 @@ struct Scorer {
   // Heading drift bounded by the exemplar's own 95 % values (PICTURES 1).
   double drift(const Vec2& step) const {
     const Hierarchy& h = state.style.hierarchy;
-    if (aim.guided || state.ground.painted()) return 0.0;  // the user's course may turn more than the exemplar's
+    if (aim.guided) return 0.0;  // the user's course may turn more than the exemplar's
     const int m = state.style.bending.extension, tip = branch.count() - 1;
     double penalty = 0.0;
     for (std::size_t l = 0; l < h.lags.size(); ++l) {

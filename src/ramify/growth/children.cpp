@@ -73,7 +73,7 @@ GrowingBranch plan_branch(const GrowthState& state, const ChildPlan& plan, Rng& 
   const double template_rim = bending.smooth_radius[bending.first[source.parent] + source.parent_vertex];
   const double start = template_start(state, plan.source);
   const double least = std::min(state.style.hierarchy.least_radius, std::max(0.5, rim));
-  const double radius = std::max(least, std::min(start * std::clamp(rim / template_rim, 0.75, 1.3), state.style.hierarchy.most_ratio * rim));
+  const double radius = std::max(least, plan.width_factor * std::min(start * std::clamp(rim / template_rim, 0.75, 1.3), state.style.hierarchy.most_ratio * rim));
   child.radius_scale = radius / start;
   child.most_radius = std::max(radius, std::min(state.style.hierarchy.most_ratio * rim, kMostWidening * radius));
   child.points = {parent.points[plan.node] + direction_of(along + sign * source.rim_angle) * (rim + 0.5)};
@@ -172,7 +172,7 @@ std::vector<Place> rank_places(const GrowthState& state, int number, int source,
   const SourceBranch& child = state.style.hierarchy.branches[source];
   const BendingModel& bending = state.style.bending;
   const double place_in_template = child.parent_vertex / static_cast<double>(std::max(1, bending.length_of(child.parent) - 1));
-  const double reach = std::min(0.6 * length_of_template(state, source), 4.0 * state.style.hierarchy.spacing + 40.0);
+  const double reach = std::min(0.6 * length_of_template(state, source), 4.0 * state.spacing + 40.0);
   const int last = branch.count() - 1;
   std::vector<Place> places;
   for (int node = 2; node < last - 1; ++node) {
@@ -183,7 +183,7 @@ std::vector<Place> rank_places(const GrowthState& state, int number, int source,
       const int side = state.side_of(source, mirrored);
       if ((mirrored && !state.style.mirror) || fork_blocked(state, branch, node, side)) continue;
       const double direction = tangent_at(branch, node) + (mirrored ? -0.8 : 0.8) * child.start_angle;
-      const double skip = branch.radii[node] + 0.6 * state.style.hierarchy.spacing;
+      const double skip = branch.radii[node] + 0.6 * state.spacing;
       const double room = free_way(state, branch.points[node], direction, skip, reach);
       places.push_back({common + 2.0 * junction_likeness(state, branch, node, source, mirrored) +
                             1.5 * std::log(0.08 + room) + 0.4 * rng.normal() - (side == wanted_side ? 0.0 : kOtherSide),
@@ -210,9 +210,11 @@ Vec2 tree_root(const GrowthState& state, int branch) {
 }
 
 bool fork_blocked(const GrowthState& state, const GrowingBranch& branch, int node, int side) {
-  const int gap = std::max(state.style.hierarchy.furcation_gap, 2);
+  // Where paint asks for more branches than the exemplar has, their gaps shrink alike.
+  const double crowding = state.crowding;
+  const int gap = std::max(static_cast<int>(crowding * state.style.hierarchy.furcation_gap), 2);
   // Ways to one side within the exemplar's own gaps would run in parallel.
-  const int side_gap = std::max(gap, state.style.hierarchy.side_gap);
+  const int side_gap = std::max(gap, static_cast<int>(crowding * state.style.hierarchy.side_gap));
   if (!state.ground.inside(branch.points[node])) return true;
   return std::any_of(branch.forks.begin(), branch.forks.end(), [&](const Fork& fork) {
     return std::abs(fork.node - node) <= (fork.side == side ? side_gap : gap);
@@ -252,13 +254,14 @@ int place_child(GrowthState& state, const ChildPlan& plan, Rng& rng) {
     return kNone;
   }
   state.commit(number, stretch);
-  const double reach = std::min(0.6 * child.length, 4.0 * state.style.hierarchy.spacing + 40.0);
+  state.branches[number].followed = plan.followed;
+  const double reach = std::min(0.6 * child.length, 4.0 * state.spacing + 40.0);
   state.branches[number].heading =
       plan.heading ? *plan.heading
                    : draw_heading(state, child.points.front(), child.start_direction + 0.5 * template_turn(state, child),
                                   child.order, reach, tree_root(state, plan.parent), rng);
-  aim_at_frame(state, state.branches[number]);
-  grow_branch(state, number, rng, false);
+  if (plan.followed == kNone) aim_at_frame(state, state.branches[number]);
+  grow_branch(state, number, rng);
   const GrowingBranch& grown = state.branches[number];
   const double arc = grown.arc(state.style.step);
   const bool stunted = grown.stop == GrowthStop::Stuck && arc < kTooShort * grown.length &&

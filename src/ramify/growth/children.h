@@ -14,6 +14,8 @@ struct ChildPlan {
   std::optional<double> heading;  // rad; drawn when empty
   double most_length = 0.0;       // px; 0 = the template's
   double length_factor = 1.0;
+  double width_factor = 1.0;      // of the radius the template would have here
+  int followed = kNone;           // a course to follow instead of a heading
 };
 
 // Starts and grows a child. Returns its number, or kNone when there is no room (then nothing has changed).

@@ -27,8 +27,8 @@ bool related(const std::vector<GrowingBranch>& branches, int number, int other) 
 
 class Stepper {
  public:
-  Stepper(GrowthState& state, int number, Rng& rng, bool guided)
-      : state_(state), number_(number), rng_(rng), guided_(guided) {}
+  Stepper(GrowthState& state, int number, Rng& rng)
+      : state_(state), number_(number), rng_(rng), guided_(state.branches[number].followed != kNone) {}
 
   // One extension; false when nothing fits.
   bool step() {
@@ -45,8 +45,8 @@ class Stepper {
     }
     aim.count = std::clamp(static_cast<int>(std::lround(remaining / state_.style.step)), 1, m);
     if (guided_) {
-      const double ahead = state_.guide.arc_at(branch.points.back()) + 2.0 * aim.count * state_.style.step;
-      aim.toward = state_.guide.point_at(ahead);
+      const double ahead = state_.progress(branch) + 2.0 * aim.count * state_.style.step;
+      aim.toward = state_.courses[branch.followed].point_at(ahead);
       aim.pull = 5.0;
     }
     const std::vector<Candidate> all = find_candidates(state_, number_, aim, 4 * kBest);
@@ -154,7 +154,7 @@ class Stepper {
     double density = 0.0, free = 0.0, wanted = 0.0;
     int densities = 0, places = 0;
     const auto look = [&](const Vec2& point, int node, bool dense) {
-      free += state_.coverage.unfilled(point);
+      free += state_.unfilled(point);
       wanted += state_.ground.wanted(point);
       ++places;
       if (!dense || !state_.ground.inside(point)) return;
@@ -174,12 +174,12 @@ class Stepper {
   // Q / (G + epsilon), G over the extension only: a straight ray would leave a curved valley (ALGORITHMS 4.6). On the
   // valley's floor G says nothing about the way, so the direction to a place ahead on the path is asked for as well.
   double guidance(const Extension& extension) const {
-    const Guide& guide = state_.guide;
+    const Course& course = state_.courses[self().followed];
     double sum = 0.0;
-    for (const Vec2& point : extension.points) sum += guide.value(point);
+    for (const Vec2& point : extension.points) sum += course.value(point);
     const Vec2 from = self().points.back();
-    const double ahead = guide.arc_at(from) + 2.0 * static_cast<double>(extension.points.size()) * state_.style.step;
-    const double wanted = angle_of(guide.point_at(ahead) - from);
+    const double ahead = state_.progress(self()) + 2.0 * static_cast<double>(extension.points.size()) * state_.style.step;
+    const double wanted = angle_of(course.point_at(ahead) - from);
     const double turn = 1.0 - std::cos(angle_of(extension.points.back() - from) - wanted);
     return -std::log(sum / static_cast<double>(extension.points.size()) + kEpsilon) - 4.0 * turn;
   }
@@ -190,7 +190,7 @@ class Stepper {
     const int tip = branch.count() - 1;
     const Vec2 from = branch.points.back();
     const Vec2 along = (from - branch.points[std::max(0, tip - state_.style.bending.extension)]).stableNormalized();
-    double best = std::max(3.0 * state_.style.hierarchy.spacing, 0.25 * branch.length);
+    double best = std::max(3.0 * state_.spacing, 0.25 * branch.length);
     std::optional<Vec2> place;
     const Vec2 reach = Vec2::Constant(best);
     const CapsuleIndex& index = state_.occupancy.index();
@@ -222,6 +222,15 @@ double longest(const GrowthState& state, const GrowingBranch& branch) {
   return branch.length * (end == BranchEnd::Tip || state.options.paper_exact ? 1.0 : 1.5);
 }
 
+// Beyond what the paint asks for a branch does not go on.
+bool overfull(const GrowthState& state, const GrowingBranch& branch) {
+  constexpr double kTooMuch = 0.05;
+  if (!state.ground.painted() || !state.ground.inside(branch.points.back())) return false;
+  return state.demand.lack(branch.points.back()) < -kTooMuch * (0.5 + state.ground.wanted(branch.points.back()));
+}
+
+}  // namespace
+
 // Ends made by growth alone fade as the exemplar's tips do. A wide branch that was stopped short needs more way than they
 // and comes down to the exemplar's thinnest: else rivers end blunt inland.
 void taper_tip(GrowthState& state, int number) {
@@ -244,8 +253,6 @@ void taper_tip(GrowthState& state, int number) {
   }
 }
 
-}  // namespace
-
 void aim_at_frame(const GrowthState& state, GrowingBranch& branch) {
   if (state.style.hierarchy.branches[branch.source].end != BranchEnd::Frame || !branch.heading) return;
   const Vec2 along = direction_of(*branch.heading);
@@ -256,16 +263,18 @@ void aim_at_frame(const GrowthState& state, GrowingBranch& branch) {
   }
 }
 
-void grow_branch(GrowthState& state, int number, Rng& rng, bool guided) {
+void grow_branch(GrowthState& state, int number, Rng& rng) {
   const int m = state.style.bending.extension;
-  Stepper stepper(state, number, rng, guided);
+  Stepper stepper(state, number, rng);
   int setbacks = 0;
   for (;;) {
     state.monitor.check();
     const GrowingBranch& branch = state.branches[number];
     if (branch.stop != GrowthStop::None) break;
     const double arc = branch.arc(state.style.step);
-    if (guided && state.guide.arc_at(branch.points.back()) > state.guide.length() - 0.5 * m * state.style.step) break;
+    const bool guided = branch.followed != kNone;
+    if (guided && state.progress(branch) > state.courses[branch.followed].length() - 0.5 * m * state.style.step) break;
+    if (!guided && arc > state.spacing && overfull(state, branch)) break;
     if (arc >= longest(state, branch) - 0.5 * state.style.step) break;
     if (stepper.step()) continue;
     if (branch.count() <= m + 1 || ++setbacks > 3) {

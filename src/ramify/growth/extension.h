@@ -8,8 +8,11 @@
 namespace ramify {
 
 // Grows branch `number` from its tip to its intended length, or until it leaves the canvas, joins another branch or finds
-// no way on; a stuck branch has been stepped back up to three times. `guided`: it follows the guide.
-void grow_branch(GrowthState& state, int number, Rng& rng, bool guided);
+// no way on; a stuck branch has been stepped back up to three times.
+void grow_branch(GrowthState& state, int number, Rng& rng);
+
+// Fades the tip of a branch that ends inside the picture as the exemplar's tips do.
+void taper_tip(GrowthState& state, int number);
 
 // A branch whose template leaves the frame is meant to reach it: its length becomes the way out along its heading where
 // that is between half and 2.5 times what it was.

@@ -6,8 +6,8 @@
 
 namespace ramify {
 
-// A painted value up to this is black: nothing may grow there.
-inline constexpr double kBlack = 8.0 / 255.0;
+// A painted value up to this is black: nothing may grow there. Between the 8-bit values 8 and 9, so that no rounding decides.
+inline constexpr double kBlack = 8.5 / 255.0;
 
 class Ground {
  public:

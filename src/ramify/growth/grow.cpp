@@ -6,6 +6,7 @@
 
 #include "ramify/growth/children.h"
 #include "ramify/growth/density_fill.h"
+#include "ramify/growth/painted_fill.h"
 #include "ramify/growth/roots.h"
 
 namespace ramify {
@@ -97,9 +98,13 @@ Skeleton grow_from_style(const Style& style, const GrowthTarget& target, const G
   GrowthState state(style, target, options, rng, monitor);
   // Orders the exemplar has not are no style; a painted map may need a few to fill its corners.
   const int most_order = options.levels > 0 ? options.levels - 1 : style.hierarchy.highest_order + (state.ground.painted() ? 12 : 0);
-  const std::vector<int> roots = grow_roots(state);
+  const bool painted = state.ground.painted() && !options.parent_first;
+  const bool own_places = painted && target.roots.empty() && state.drawn.empty();
+  const std::vector<int> roots = own_places ? std::vector<int>{} : grow_roots(state);
   monitor.report(0.2);
-  if (options.parent_first) {
+  if (painted) {
+    fill_painted(state, most_order);
+  } else if (options.parent_first) {
     grow_by_probability(state, roots, most_order);
   } else {
     grow_children(state, roots, most_order);

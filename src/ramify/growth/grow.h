@@ -30,8 +30,9 @@ struct GrowthTarget {
   Size size;                    // px, the canvas
   std::vector<GrowthRoot> roots;// empty: the style's own (frame roots and landmark roots)
   ScalarImage density;          // empty, or painted: <= 8/255 never entered, 1 = grow and fill (PICTURES 9)
-  std::vector<Vec2> guide_path; // px; empty, or a course the main branch follows (paper 002, section 4.5)
-  ScalarImage guide_map;        // empty, or 1 on the course and 0 elsewhere; its longest way is the course
+  std::vector<std::vector<Vec2>> guide_paths;  // px; courses branches follow from their first points on: the longest, and
+                                // those that start on no other, are main branches (paper 002, section 4.5)
+  ScalarImage guide_map;        // empty, or 1 on the courses and 0 elsewhere
   Mask outside;                 // empty, or 255 where growth leaves as through the frame
   Mask obstacles;               // empty, or 255 where nothing may grow
   std::optional<KeptGround> kept;  // given: roots on a landmark start exactly where the exemplar's do

@@ -38,6 +38,7 @@ struct GrowingBranch {
   double most_radius = 1e9;       // px: a child never grows thicker than its parent is where it leaves
   std::optional<double> heading;  // rad, intended direction of its chord
   double course = 0.0;            // 0 = straight along the heading, 1 = bending at large as the template does
+  int followed = kNone;           // the course it follows, or none
   GrowthStop stop = GrowthStop::None;
   std::vector<Fork> forks;        // where children leave, in the order they were placed
   bool grown = true;              // false once taken back

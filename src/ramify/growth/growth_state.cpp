@@ -7,9 +7,11 @@
 namespace ramify {
 namespace {
 
+constexpr double kJoin = 0.75;  // features from a drawn course within which another's end belongs to it
+
 // Where branches live in the exemplar, on a canvas of its kind; even where the user placed roots or drew a course.
 double habitat_at(const Style& style, const GrowthTarget& target, const Vec2& point) {
-  if (!target.roots.empty() || !target.guide_path.empty() || !target.guide_map.empty()) return 1.0;
+  if (!target.roots.empty() || !target.guide_paths.empty() || !target.guide_map.empty()) return 1.0;
   const auto along = [](double value, int side) {
     return std::clamp((value + 0.5) / side * kHabitatCells - 0.5, 0.0, kHabitatCells - 1.0);
   };
@@ -38,10 +40,11 @@ GrowthState::GrowthState(const Style& style_, const GrowthTarget& target_, const
       monitor(monitor_),
       rng(rng_),
       ground(target),
-      guide(target, options.guide_width > 0.0 ? options.guide_width : 1.5 * bend_amplitude(style.bending)),
-      coverage(target.size, (ground.painted() ? 0.6 : 1.0) * style.hierarchy.spacing,
-               [&](const Vec2& p) { return ground.painted() ? ground.wanted(p) : ground.wanted(p) * habitat_at(style, target, p); }),
-      occupancy(ground, widest_radius(style, target), 0.5 * style.hierarchy.spacing, style.step),
+      drawn(drawn_courses(target, ground, kJoin * style.feature_size, 4.0 * style.step, monitor)),
+      spacing(painted_spacing(style, ground)),
+      coverage(target.size, spacing, [&](const Vec2& p) { return ground.wanted(p) * habitat_at(style, target, p); }),
+      demand(ground.painted() ? Demand(ground, spacing, options.length) : Demand()),
+      occupancy(ground, widest_radius(style, target), spread(), style.step),
       matcher(style.bending),
       window_uses(style.bending.point.size(), 0),
       template_uses(style.hierarchy.branches.size(), 0) {
@@ -51,8 +54,16 @@ GrowthState::GrowthState(const Style& style_, const GrowthTarget& target_, const
   radii.high = style.bending.radii.high;
   const double exemplar_area = static_cast<double>(style.exemplar_size.width) * style.exemplar_size.height;
   const double canvas_area = static_cast<double>(target.size.width) * target.size.height;
-  const double area = ground.painted() ? ground.open_area() : canvas_area;
-  wanted_length = options.length * style.hierarchy.total_length * area / exemplar_area;
+  wanted_length = options.length * style.hierarchy.total_length * canvas_area / exemplar_area;
+  if (ground.painted()) crowding = std::min(1.0, style.hierarchy.total_length / exemplar_area * spacing);
+  const double width = options.guide_width > 0.0 ? options.guide_width : 1.5 * bend_amplitude(style.bending);
+  for (const DrawnCourse& course : drawn) courses.emplace_back(course.path, width);
+}
+
+double GrowthState::progress(const GrowingBranch& branch) const {
+  const double arc = branch.arc(style.step);
+  // Bends make the branch longer than its course, cut corners shorter.
+  return courses[branch.followed].arc_at(branch.points.back(), 0.3 * arc - 2.0 * style.feature_size, 1.1 * arc + 2.0 * style.feature_size);
 }
 
 int GrowthState::start(const GrowingBranch& branch) {
@@ -82,6 +93,7 @@ void GrowthState::commit(int number, const Extension& extension) {
     branch.copied.push_back(extension.copied[j]);
     occupancy.add_edge(branch, number, branch.count() - 1);
     coverage.cover(extension.points[j], extension.radii[j], 1);
+    demand.add(extension.points[j], branch.points[branch.points.size() - 2], 1);
     angles.add(extension.turns[j]);
     radii.add(extension.radii[j]);
     if (extension.copied[j] != 0) ++window_uses[std::abs(extension.copied[j]) - 1];
@@ -94,6 +106,7 @@ void GrowthState::step_back(int number, int count) {
   for (int j = 0; j < count && branch.count() > 1; ++j) {
     occupancy.remove_last();
     coverage.cover(branch.points.back(), branch.radii.back(), -1);
+    demand.add(branch.points.back(), branch.points[branch.points.size() - 2], -1);
     grown_length -= (branch.points.back() - branch.points[branch.count() - 2]).norm();
     angles.add(branch.turns[branch.count() - 2], -1.0);
     radii.add(branch.radii.back(), -1.0);

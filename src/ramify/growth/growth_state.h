@@ -2,8 +2,10 @@
 // Everything a growth run knows while it runs.
 #pragma once
 
+#include "ramify/growth/course.h"
 #include "ramify/growth/coverage.h"
-#include "ramify/growth/guide.h"
+#include "ramify/growth/demand.h"
+#include "ramify/growth/drawn_courses.h"
 #include "ramify/growth/occupancy.h"
 #include "ramify/growth/window_matcher.h"
 
@@ -25,7 +27,12 @@ struct GrowthState {
   // The template profile's radius at an arc length, px.
   double template_radius(const GrowingBranch& branch, double arc) const;
 
-  double spread() const { return 0.5 * style.hierarchy.spacing; }  // rho, px
+  // Half of rho, px: over it D falls (half, because the clear space counts from rims).
+  double spread() const { return 0.5 * spacing; }
+  // What is wanted at the point and not there yet, 0..1; 0 off the canvas.
+  double unfilled(const Vec2& point) const { return ground.painted() ? demand.unfilled(point) : coverage.unfilled(point); }
+  // Px a branch has come along the course it follows.
+  double progress(const GrowingBranch& branch) const;
   bool full() const { return grown_length >= wanted_length; }
 
   const Style& style;
@@ -34,8 +41,12 @@ struct GrowthState {
   const Monitor& monitor;
   Rng rng;
   Ground ground;
-  Guide guide;
+  std::vector<DrawnCourse> drawn;
+  std::vector<Course> courses;      // the drawn ones, then those laid out to reach painted places
+  double spacing;                   // rho, px from a branch to halfway to its neighbour
+  double crowding = 1.0;            // length per area in the exemplar over what paint asks for, at most 1
   Coverage coverage;
+  Demand demand;                    // empty without a painted map
   Occupancy occupancy;
   WindowMatcher matcher;
   std::vector<GrowingBranch> branches;

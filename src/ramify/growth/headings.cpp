@@ -19,7 +19,7 @@ double free_way(const GrowthState& state, const Vec2& from, double direction, do
   constexpr int kSamples = 6;
   double sum = 0.0;
   for (int j = 1; j <= kSamples; ++j) {
-    sum += state.coverage.unfilled(from + direction_of(direction) * (skip + reach * j / kSamples));
+    sum += state.unfilled(from + direction_of(direction) * (skip + reach * j / kSamples));
   }
   return sum / kSamples;
 }
@@ -33,7 +33,7 @@ double draw_heading(const GrowthState& state, const Vec2& from, double start, in
   if (state.options.tropism >= 0.0) absolute_power = state.options.tropism;
   const Vec2 outward = from - root;
   const double ray_power = ray.strength < kLeastStrength || outward.norm() < 4.0 * state.style.step ? 0.0 : ray.strength;
-  const double skip = state.style.hierarchy.spacing;
+  const double skip = state.spacing;
   std::vector<double> weights;
   for (int i = 0; i < kDirections; ++i) {
     const double direction = -kPi + 2.0 * kPi * i / kDirections;

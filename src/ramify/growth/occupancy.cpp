@@ -69,8 +69,9 @@ Occupancy::Verdict Occupancy::judge(const std::vector<GrowingBranch>& branches, 
     const bool near = edge.place * step_ < 2.0 * rim + 4.0 * step_ &&
                       std::abs(other.place - branch.parent_node) * step_ < 3.0 * rim + 5.0 * step_;
     if (near) {
-      return distance < std::max(0.25 * step_, 0.6 * std::min(other.radius_a, other.radius_b)) ? Verdict::Blocked
-                                                                                              : Verdict::Clear;
+      // A child starts half a pixel off its parent's rim: on a thin parent it must not be asked for more than that.
+      const double clear = std::min(std::max(0.25 * step_, 0.6 * std::min(other.radius_a, other.radius_b)), 0.6 * (rim + 0.5));
+      return distance < clear ? Verdict::Blocked : Verdict::Clear;
     }
   }
   return distance < widths + kept_gap(edge, other) ? Verdict::Meets : Verdict::Clear;

@@ -8,6 +8,7 @@
 #include "ramify/growth/candidates.h"
 #include "ramify/growth/children.h"
 #include "ramify/growth/extension.h"
+#include "ramify/growth/sending.h"
 
 namespace ramify {
 namespace {
@@ -151,21 +152,33 @@ std::vector<int> grow_given_roots(GrowthState& state) {
   return grown;
 }
 
-int grow_guided_root(GrowthState& state) {
-  const std::vector<Vec2>& path = state.guide.path();
-  Rng rng = state.rng.child("grow.guided_root");
-  RootPlan plan;
-  plan.source = root_templates(state.style).front();
-  plan.position = path.front();
-  plan.direction = angle_of(state.guide.point_at(std::min(0.5 * state.guide.length(), 2.0 * state.style.feature_size)) - path.front());
-  plan.length = 1.15 * state.guide.length();  // bends make the way longer
-  plan.guided = true;
-  if (!state.target.roots.empty()) {
-    plan.position = state.target.roots.front().position;
-    plan.radius = state.target.roots.front().radius;
-    plan.direction = state.target.roots.front().direction.value_or(plan.direction);
+// A main branch along each drawn course that leaves no other; the longest has the first of the user's roots.
+std::vector<int> grow_along_courses(GrowthState& state) {
+  std::vector<int> branch_of(state.drawn.size(), kNone), grown;
+  const std::vector<int> roots = root_templates(state.style);
+  for (int c = 0; c < static_cast<int>(state.drawn.size()); ++c) {
+    Rng rng = state.rng.child("grow.course", static_cast<std::uint64_t>(c));
+    const int parent = state.drawn[c].parent;
+    if (parent != kNone && branch_of[parent] != kNone) {
+      branch_of[c] = send_along(state, c, branch_of[parent], rng);
+    } else {
+      const Course& course = state.courses[c];
+      RootPlan plan;
+      plan.source = roots[static_cast<std::size_t>(c) % roots.size()];
+      plan.position = course.point_at(0.0);
+      plan.direction = course.direction_at(0.0, 2.0 * state.style.feature_size);
+      plan.length = 1.3 * course.length();  // bends make the way longer
+      plan.followed = c;
+      if (c == 0 && !state.target.roots.empty()) {
+        plan.position = state.target.roots.front().position;
+        plan.radius = state.target.roots.front().radius;
+        plan.direction = state.target.roots.front().direction.value_or(plan.direction);
+      }
+      branch_of[c] = place_root(state, plan, rng);
+    }
+    if (branch_of[c] != kNone) grown.push_back(branch_of[c]);
   }
-  return place_root(state, plan, rng);
+  return grown;
 }
 
 }  // namespace
@@ -192,7 +205,8 @@ int place_root(GrowthState& state, const RootPlan& plan, Rng& rng) {
   root.copied = {0};
   root.start_direction = wrap_angle(plan.direction);
   root.length = std::max(2.0 * state.style.step, plan.length);
-  root.heading = plan.guided ? std::nullopt : std::optional<double>(wrap_angle(plan.heading.value_or(plan.direction)));
+  root.followed = plan.followed;
+  root.heading = plan.followed != kNone ? std::nullopt : std::optional<double>(wrap_angle(plan.heading.value_or(plan.direction)));
   root.course = rng.uniform(0.6, 1.0);
   // A root on the frame starts outside, so that its rounded end is never seen.
   const Extension lead = lead_in(state, root);
@@ -200,19 +214,16 @@ int place_root(GrowthState& state, const RootPlan& plan, Rng& rng) {
   const int number = state.start(root);
   state.commit(number, lead);
   if (state.options.copy_stem && state.branches.size() == 1) copy_stem(state, number);
-  if (!plan.guided) aim_at_frame(state, state.branches[number]);
+  if (plan.followed == kNone) aim_at_frame(state, state.branches[number]);
   state.branches[number].length += static_cast<double>(lead.points.size()) * state.style.step;
-  grow_branch(state, number, rng, plan.guided);
+  grow_branch(state, number, rng);
   if (state.branches[number].count() >= 4 + static_cast<int>(lead.points.size())) return number;
   state.take_back(number);
   return kNone;
 }
 
 std::vector<int> grow_roots(GrowthState& state) {
-  if (!state.guide.empty()) {
-    const int number = grow_guided_root(state);
-    return number == kNone ? std::vector<int>{} : std::vector<int>{number};
-  }
+  if (!state.drawn.empty()) return grow_along_courses(state);
   return state.target.roots.empty() ? grow_own_roots(state) : grow_given_roots(state);
 }
 

@@ -17,7 +17,7 @@ struct RootPlan {
   std::optional<double> radius;
   std::optional<double> heading;   // of the whole branch; the direction when empty
   double length = 0.0;
-  bool guided = false;
+  int followed = kNone;            // a course to follow instead of a heading
 };
 int place_root(GrowthState& state, const RootPlan& plan, Rng& rng);
 

@@ -60,23 +60,23 @@ ScalarImage load_map(const std::string& path, Size size, const LoadLimits& limit
   return resize(map, size);
 }
 
-// The longest path of a drawing, on the canvas.
-std::vector<Vec2> load_guide_path(const std::string& path, Size canvas, const Monitor& monitor) {
+// The paths of a drawing, on the canvas.
+std::vector<std::vector<Vec2>> load_guide_paths(const std::string& path, Size canvas, const Monitor& monitor) {
   const SvgDrawing drawing = parse_svg(read_file(path, 64u << 20), printable(path, 300));
-  std::vector<Vec2> best;
-  double length = 0.0;
+  std::vector<std::vector<Vec2>> paths;
   for (const SvgPath& candidate : drawing.paths) {
-    const double own = candidate.points.size() < 2 ? 0.0 : arc_lengths(candidate.points).back();
-    if (own > length) best = candidate.points, length = own;
+    if (candidate.points.size() >= 2) paths.push_back(candidate.points);
   }
-  if (best.empty()) throw InputError(printable(path, 300), "holds no path to follow");
+  if (paths.empty()) throw InputError(printable(path, 300), "holds no path to follow");
   if (drawing.size.width > 0 && drawing.size != canvas) {
     monitor.note(printable(path) + ": scaled from its viewBox of " + std::to_string(drawing.size.width) + "x" +
                  std::to_string(drawing.size.height) + " to the canvas");
     const Vec2 scale(static_cast<double>(canvas.width) / drawing.size.width, static_cast<double>(canvas.height) / drawing.size.height);
-    for (Vec2& p : best) p = p.cwiseProduct(scale);
+    for (std::vector<Vec2>& points : paths) {
+      for (Vec2& p : points) p = p.cwiseProduct(scale);
+    }
   }
-  return best;
+  return paths;
 }
 
 void load_guides(LoadedRequest& loaded, const Monitor& monitor) {
@@ -95,7 +95,7 @@ void load_guides(LoadedRequest& loaded, const Monitor& monitor) {
   }
   if (request.guide.empty()) return;
   if (fs::path(request.guide).extension() == ".svg") {
-    target.guide_path = load_guide_path(request.guide, target.size, monitor);
+    target.guide_paths = load_guide_paths(request.guide, target.size, monitor);
   } else {
     target.guide_map = load_map(request.guide, target.size, request.limits, monitor);
   }
@@ -117,7 +117,9 @@ GrowthTarget mirrored(const GrowthTarget& target) {
     root.position.x() = right - root.position.x();
     if (root.direction) root.direction = wrap_angle(kPi - *root.direction);
   }
-  for (Vec2& p : out.guide_path) p.x() = right - p.x();
+  for (std::vector<Vec2>& path : out.guide_paths) {
+    for (Vec2& p : path) p.x() = right - p.x();
+  }
   out.density = mirrored(target.density);
   out.guide_map = mirrored(target.guide_map);
   out.outside = mirrored(target.outside);
