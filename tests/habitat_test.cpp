@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "ramify/exemplar/apron.h"
 #include "ramify/exemplar/branch_zone.h"
 #include "ramify/exemplar/habitat.h"
 #include "ramify/exemplar/plate.h"
@@ -179,4 +180,40 @@ TEST_CASE("dense lines in one place are no texture and all over are") {
     INFO("lines over " << width << " px, share " << habitat.shadow_share);
     CHECK(habitat.shadow_is_texture == (width == 320));
   }
+}
+
+TEST_CASE("colours found beside branches only are theirs and reach as far as they do") {
+  Exemplar e = disc_exemplar(false, false);
+  const Mask none(e.photo.color.size(), 0);
+  const Apron plain = measure_apron(e, none);
+  CHECK(plain.reach == 0.0);
+  constexpr double kSnow = 14.0;  // px beyond the edge
+  const Mask near = branch_zone(e.skeleton, e.photo.color.size(), [](double r) { return r + kSnow; });
+  for (std::size_t i = 0; i < near.pixels().size(); ++i) {
+    if (near.pixels()[i]) e.photo.color.pixels()[i] = {0.2f, 0.3f, 0.8f};
+  }
+  const Apron snowy = measure_apron(e, none);
+  CHECK(snowy.reach >= 12.0);
+  CHECK(snowy.reach <= 20.0);
+  int missed = 0, wrong = 0;
+  const Mask far = invert(dilate(near, 4.0));
+  for (std::size_t i = 0; i < near.pixels().size(); ++i) {
+    missed += near.pixels()[i] && !snowy.own.pixels()[i];
+    wrong += far.pixels()[i] && snowy.own.pixels()[i];
+  }
+  CHECK(missed < 0.2 * mean_of(near) * static_cast<double>(near.pixels().size()));
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("lines on wide things of the branches' colours are embedded and lines on ground are not") {
+  Mask lines(120, 80, 0), own(120, 80, 0);
+  const Mask branches(120, 80, 0);
+  for (int y = 10; y < 70; ++y) {
+    lines(30, y) = lines(31, y) = lines(90, y) = lines(91, y) = 255;
+    for (int x = 20; x < 42; ++x) own(x, y) = 255;  // around the first line only
+    own(90, y) = own(91, y) = 255;                  // the second has the colour, but is no wide thing
+  }
+  CHECK(embedded_share(lines, own, branches) == Approx(0.5));
+  CHECK(embedded_share(lines, Mask(120, 80, 0), branches) == 0.0);
+  CHECK(embedded_share(lines, own, own) == 0.0);  // what is annotated does not count
 }

@@ -15,7 +15,7 @@ constexpr std::size_t kKept = 24;
 constexpr std::size_t kCompared = 1200;
 constexpr std::size_t kEnough = 60;           // candidates of nearly the same width
 constexpr double kLitTurn = 25.0 * kPi / 180;  // rad, by which light from one side may turn unseen (PICTURES 8)
-constexpr double kLightWeight = 4.0;          // of turns beyond, times the light's strength
+constexpr int kEnoughUpright = 24;            // candidates turned less, for which none that is turned more is looked at
 constexpr int kDiscGrid = 9;                  // disagreement is sampled on 19 x 19 points
 
 Vec2 mirrored(const Vec2& v, bool mirror) { return mirror ? Vec2(-v.x(), v.y()) : v; }
@@ -75,15 +75,10 @@ bool same_kind(const Fragment& source, const Fragment& target, bool any_end) {
          source.shape.size() == target.shape.size();
 }
 
-// Cost of a source apart from its shape: light that would fall from elsewhere, another scale of grain, faintness.
+// Cost of a source apart from its shape: another scale of grain, faintness.
 double fitness_cost(const CandidateContext& context, const Candidate& c) {
-  double light = 0.0;
-  if (is_shaded(context.library)) {
-    const double excess = std::max(0.0, std::abs(c.angle) - kLitTurn);
-    light = kLightWeight * context.library.light_strength * (1.0 - std::cos(std::min(kPi, excess)));
-  }
   const double faint = context.shapes[c.source].faintness, log_scale = c.scale == 1.0 ? 0.0 : std::log(c.scale);
-  return light + 0.2 * log_scale * log_scale + context.options.contrast_weight * faint * faint;
+  return 0.2 * log_scale * log_scale + context.options.contrast_weight * faint * faint;
 }
 
 // A share of them, another one for every target: more than kCompared sources differ by a few pixels only.
@@ -134,6 +129,17 @@ std::vector<Candidate> match_shapes(const CandidateContext& context, const Fragm
     }
   }
   return found;
+}
+
+// Light from one side betrays what was turned. The limit gives way step by step where the photo has too little that lies
+// as the target does.
+void keep_upright(std::vector<Candidate>& candidates) {
+  for (double limit = kLitTurn; limit < kPi; limit *= 2.0) {
+    const auto turned = [&](const Candidate& c) { return std::abs(c.angle) > limit; };
+    if (std::count_if(candidates.begin(), candidates.end(), turned) + kEnoughUpright > static_cast<std::ptrdiff_t>(candidates.size())) continue;
+    std::erase_if(candidates, turned);
+    return;
+  }
 }
 
 void keep_best(std::vector<Candidate>& candidates, std::size_t count) {
@@ -208,6 +214,7 @@ std::vector<Candidate> rank_candidates(const CandidateContext& context, const Fr
   std::vector<Candidate> candidates = match_shapes(context, target, target_index, false);
   // A photo without a single free end: the branch is cut off where it has to end.
   if (candidates.empty() && target.kind == FragmentKind::Along) candidates = match_shapes(context, target, target_index, true);
+  if (is_shaded(context.library) && !context.options.paper_greedy) keep_upright(candidates);
   keep_best(candidates, kShapeSurvivors);
   const PlacementOptions& options = context.options;
   if (options.paper_greedy) return candidates;

@@ -95,6 +95,7 @@ std::vector<OptionField> describe(PasteOptions& o) {
       number("core-margin", o.core_margin, -10.0, 50.0, "px", "The background may not be seen within this of a branch."),
       number("core-share", o.core_share, 0.0, 3.0, "", "The same, as a share of the branch radius, added."),
       number("core-cap", o.core_cap, 0.0, 100.0, "px", "At most this from the share."),
+      number("apron", o.apron, 0.0, 1000.0, "px", "Beside a branch the ground is rather its fragment's than the background."),
       number("crossing-weight", o.crossing_weight, 0.0, 100.0, "", "How much dearer seams are on the branch itself."),
       number("step-guard", o.step_guard, 0.0, 1000.0, "Lab", "Steps between branch and ground above this stay hard."),
       number("screen", o.screen, 1e-6, 1.0, "", "Pull towards the fragments' own colours."),

@@ -12,6 +12,8 @@ struct PasteOptions {
   double core_margin = 1.0;     // px beyond the branch's edge where the background may not be seen …
   double core_share = 0.3;      // … plus this share of the branch radius …
   double core_cap = 8.0;        // … which is at most this, px
+  double apron = 0.0;           // px beyond the edge within which the ground is the branch's own (Habitat::apron); the
+                                // background should not be seen there
   double crossing_weight = 3.0; // seams across the branch cost up to 1 + this times as much, so they cross it shortly
   double step_guard = 12.0;     // Lab difference above which a step between branch and no branch stays hard (else fog)
   double screen = 1e-3;         // pull towards the fragments' own colours, 1/px^2

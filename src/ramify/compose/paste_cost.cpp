@@ -12,6 +12,7 @@ constexpr int kUncovered = 200'000;     // background in the core of a branch
 constexpr double kDisagreement = 6000;  // per 2 px of branch against no branch, at most twice
 constexpr double kShadow = 3000;        // an unannotated branch where there should be none
 constexpr double kOffCentre = 50;       // prefers the fragment whose centre is nearer
+constexpr double kForeignGround = 2000;  // background where the ground beside a branch is the branch's own
 constexpr int kNoOverlap = 20'000;
 constexpr double kSeam = 30;            // of any seam, however good
 constexpr double kDiscShare = 0.95;     // of the disc radius
@@ -78,7 +79,10 @@ int PasteCost::shows_branch(int label, int x, int y) const {
 }
 
 int PasteCost::data(int label, int x, int y) const {
-  if (label == kNone) return in_core(x, y) ? kUncovered : 0;
+  if (label == kNone) {
+    if (in_core(x, y)) return kUncovered;
+    return static_cast<int>(kForeignGround * std::max(0.0, 1.0 - plan_.field.signed_distance(x, y) / std::max(1.0, options_.apron)));
+  }
   const Placement& placement = plan_.placements[label];
   const double distance = std::hypot(x - placement.centre.x(), y - placement.centre.y());
   const Patch& patch = patches_[label];

@@ -26,6 +26,13 @@ Mask role_mask(const Habitat& habitat, RegionRole role) {
   return out;
 }
 
+// Lines that may not come along with a fragment: those nobody annotated, unless they are the ground's texture or the
+// branches have an apron of such (twigs, ribs).
+Mask foreign_lines(const Habitat& habitat) {
+  const bool at_home = habitat.shadow_is_texture || habitat.apron > 0.0;
+  return at_home ? Mask(habitat.shadow.size(), 0) : habitat.shadow;
+}
+
 void check_paper_flags(const ComposeOptions& o, CompositeMode mode) {
   const bool paper = o.paper_spacing || o.paper_greedy || o.paper_order || o.paper_rigid || o.paper_warp || o.paper_cut ||
                      o.paper_blend || o.free_rims || o.paper_exact;
@@ -36,10 +43,11 @@ void check_paper_flags(const ComposeOptions& o, CompositeMode mode) {
   if (o.free_rims && !o.paper_blend && !o.paper_exact) throw OptionError("free-rims", "", "has an effect with --paper-blend only");
 }
 
-FragmentOptions fragment_options(const ComposeOptions& options, Size photo) {
+FragmentOptions fragment_options(const ComposeOptions& options, Size photo, const Habitat& habitat) {
   FragmentOptions out;
   out.paper_spacing = options.paper_spacing || options.paper_exact;
   if (out.paper_spacing) out.canvas_side = std::min(photo.width, photo.height);
+  out.least_surround = std::clamp(habitat.apron, out.least_surround, 40.0);
   return out;
 }
 
@@ -47,7 +55,7 @@ Composite compose_pasted(const Exemplar& exemplar, const ComposeScene& scene, co
                          const Skeleton& skeleton, const ComposeOptions& options, const Rng& rng, const Monitor& monitor) {
   const bool exact = options.paper_exact;
   TargetOptions target;
-  target.fragment = fragment_options(options, exemplar.photo.color.size());
+  target.fragment = fragment_options(options, exemplar.photo.color.size(), scene.habitat);
   target.parent_first = options.paper_order || exact;
   if (target.fragment.paper_spacing) target.spacing = 0.75;
   PlacementOptions placement;
@@ -61,6 +69,7 @@ Composite compose_pasted(const Exemplar& exemplar, const ComposeScene& scene, co
   paste.paper_cut = options.paper_cut || exact;
   paste.paper_blend = options.paper_blend || exact;
   paste.free_rims = options.free_rims;
+  if (!exact && !options.paper_cut) paste.apron = scene.habitat.apron;
   const PlacementPlan plan = place_fragments(scene.library, skeleton, background.color, target, placement,
                                              rng.child("placement"), monitor.stage("place", 0.0, 0.4));
   PasteResult pasted = paste_fragments(exemplar.photo.color, scene.library, plan, background.color, paste, monitor.stage("paste", 0.4, 1.0));
@@ -112,8 +121,8 @@ ComposeScene prepare_scene(const Exemplar& exemplar, const ComposeOptions& optio
   ComposeScene scene;
   scene.habitat = find_habitat(exemplar, HabitatOptions{}, rng.child("habitat"), monitor.stage("habitat", 0.0, 0.2));
   const Mask unusable = either(either(scene.habitat.outside, scene.habitat.outliers), role_mask(scene.habitat, RegionRole::Keep));
-  const Mask shadow = scene.habitat.shadow_is_texture ? Mask(scene.habitat.shadow.size(), 0) : scene.habitat.shadow;
-  const FragmentOptions fragments = fragment_options(options, exemplar.photo.color.size());
+  const Mask shadow = foreign_lines(scene.habitat);
+  const FragmentOptions fragments = fragment_options(options, exemplar.photo.color.size(), scene.habitat);
   scene.library = make_fragment_library(exemplar, shadow, unusable, fragments);
   scene.composite = options.composite != CompositeMode::Auto ? options.composite
                     : options.paper_exact                    ? CompositeMode::Paste

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kHalfSamples = 5;   // 2 * 5 + 1 along the branch
 constexpr int kChildSamples = 6;
+constexpr double kMostSurround = 40.0;  // px, so that wide branches' discs stay usable (PICTURES 4)
 
 void add_sample(Fragment& f, const BranchCurve& curve, double vertex) {
   const Vec2 normal = perpendicular(tangent_along(curve, vertex));
@@ -82,7 +83,7 @@ double paper_disc_radius(double branch_radius, const FragmentOptions& options) {
 
 double disc_radius(double branch_radius, const FragmentOptions& options) {
   if (options.paper_spacing) return paper_disc_radius(branch_radius, options);
-  return branch_radius + std::clamp((options.radius_factor - 1.0) * branch_radius, 8.0, 40.0);
+  return branch_radius + std::clamp((options.radius_factor - 1.0) * branch_radius, options.least_surround, kMostSurround);
 }
 
 Fragment along_fragment(const std::vector<BranchCurve>& curves, int index, int vertex, const FragmentOptions& options) {

@@ -44,6 +44,7 @@ struct Fragment {
 
 struct FragmentOptions {
   double radius_factor = 3.0;  // disc radius in branch radii, before the clamp of PICTURES 4
+  double least_surround = 8.0; // px of ground beyond a branch's edge that a disc holds at least
   double side_ratio = 0.4;     // child / parent radius below which a furcation is a Side fragment; 0 = never
   double source_spacing = 0.25;  // of the disc radius
   bool paper_spacing = false;  // sources lambda-spaced only (0.75 of the summed radii), discs clamp(3 r, 8, 0.2 side)
@@ -52,7 +53,7 @@ struct FragmentOptions {
   double canvas_side = 0.0;    // px, for paper_spacing; 0 = no upper bound
 };
 
-// r + clamp((factor - 1) r, 8, 40): the surround that matters does not grow with r.
+// r + clamp((factor - 1) r, least_surround, 40): the surround that matters does not grow with r.
 double disc_radius(double branch_radius, const FragmentOptions& options);
 
 // The disc centred on a vertex of a curve.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ramify/exemplar/apron.h"
 #include "ramify/exemplar/branch_zone.h"
 #include "ramify/exemplar/k_means.h"
 #include "ramify/image/color.h"
@@ -283,6 +284,32 @@ Mask find_shadow(const ColorImage& photo, Polarity polarity, const Mask& branche
   return lines;
 }
 
+double embedded_share(const Mask& lines, const Mask& own, const Mask& branches) {
+  constexpr double kLine = 3.0;    // px; half the width up to which own colours are lines themselves
+  constexpr double kAround = 5.0;  // px
+  constexpr double kTouch = 0.1;   // of what lies around a line
+  ScalarImage things(own.size(), 0.0f);
+  const Mask wide = dilate(erode(own, kLine), kLine);
+  for (std::size_t i = 0; i < wide.pixels().size(); ++i) {
+    if (wide.pixels()[i] && !branches.pixels()[i]) things.pixels()[i] = 1.0f;
+  }
+  things = gaussian_blur(things, kAround);
+  int count = 0;
+  const LabelImage part = label_components(lines, true, count);
+  std::vector<double> pixels(static_cast<std::size_t>(count), 0.0), theirs(static_cast<std::size_t>(count), 0.0);
+  for (std::size_t i = 0; i < lines.pixels().size(); ++i) {
+    if (!lines.pixels()[i]) continue;
+    pixels[part.pixels()[i]] += 1.0;
+    theirs[part.pixels()[i]] += things.pixels()[i];
+  }
+  double all = 0.0, embedded = 0.0;
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    all += pixels[k];
+    if (theirs[k] > kTouch * pixels[k]) embedded += pixels[k];
+  }
+  return all > 0.0 ? embedded / all : 0.0;
+}
+
 Habitat find_habitat(const Exemplar& exemplar, const HabitatOptions& options, Rng rng, const Monitor& monitor) {
   const ColorImage& photo = exemplar.photo.color;
   Habitat habitat;
@@ -308,7 +335,13 @@ Habitat find_habitat(const Exemplar& exemplar, const HabitatOptions& options, Rn
   const Mask beside = branch_zone(exemplar.skeleton, photo.size(), [](double r) { return 2.5 * r + 8.0; });
   habitat.outliers = add(find_outliers(photo, beside, habitat.outside), ignored);
   monitor.report(0.7);
-  const Mask shadow = find_shadow(photo, exemplar.polarity, branches, habitat.outside);
+  Apron apron = measure_apron(exemplar, habitat.outside);
+  Mask shadow = find_shadow(photo, exemplar.polarity, branches, habitat.outside);
+  // Measured: ridges 0.5, a bare tree 0.3, all others about 0. Kept or lifted all together; part of them leaves ruins.
+  constexpr double kEmbedded = 0.4;
+  if (embedded_share(shadow, apron.own, branches) > kEmbedded) shadow = Mask(shadow.size(), 0);
+  habitat.own = std::move(apron.own);
+  habitat.apron = apron.reach;
   double ground = 0.0, marked = 0.0;
   for (std::size_t i = 0; i < shadow.pixels().size(); ++i) {
     if (branches.pixels()[i] || habitat.outside.pixels()[i]) continue;

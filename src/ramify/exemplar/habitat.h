@@ -26,7 +26,9 @@ struct Habitat {
   Image<std::uint8_t> role;  // RegionRole of every pixel: the annotation's, and Outside where it was found
   Mask outside;              // 255: growth leaves it like the frame, nothing is copied across its border
   Mask outliers;             // 255: clouds, lights, dust, and ignored regions: never copied into texture
-  Mask shadow;               // 255: branch-like ridges off the skeleton
+  Mask shadow;               // 255: branch-like ridges off the skeleton; none where they are parts of wider things
+  Mask own;                  // 255: colours that belong to branches, on and off them (Apron)
+  double apron = 0.0;        // px beside branches that these reach (Apron)
   double shadow_share = 0.0; // of the ground off the branches
   bool shadow_is_texture = false;  // then `shadow` may be copied and stays in the plate
 };
@@ -38,5 +40,8 @@ Mask find_outside(const ColorImage& photo, const Skeleton& skeleton, const Habit
                   const Monitor& monitor);
 Mask find_outliers(const ColorImage& photo, const Mask& branches, const Mask& outside);
 Mask find_shadow(const ColorImage& photo, Polarity polarity, const Mask& branches, const Mask& outside);
+// Share of these lines that lie in wide things of the branches' own colours (ribs of a snowy mountain): such cannot be
+// lifted by themselves, because a ragged rest of the mountain would stay.
+double embedded_share(const Mask& lines, const Mask& own, const Mask& branches);
 
 }  // namespace ramify

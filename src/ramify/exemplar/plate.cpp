@@ -99,16 +99,17 @@ Reach measure_reach(const Exemplar& exemplar, const Habitat& habitat) {
   return reach;
 }
 
-// What touches the hole and differs from the ground as a branch does: banks and knots that the annotation was too narrow
-// for. They would stay behind as crumbs.
-Mask with_crumbs(Mask hole, const Reach& reach, const Skeleton& skeleton) {
+// What touches the hole and differs from the ground as a branch does, or has colours found beside branches only: banks,
+// knots and shaded sides that the annotation was too narrow for. They would stay behind as crumbs.
+Mask with_crumbs(Mask hole, const Reach& reach, const Mask& own, const Skeleton& skeleton) {
   double widest = 0.0;
   for (const Node& node : skeleton.nodes()) widest = std::max(widest, node.radius);
   // A wide river's mouth may have been left out altogether.
   const float near = static_cast<float>(std::clamp(2.5 * widest, 16.0, 160.0));  // px
   Mask different = hole;
   for (std::size_t i = 0; i < hole.pixels().size(); ++i) {
-    if (reach.beside.pixels()[i] < near && reach.apart.pixels()[i] > reach.telling) different.pixels()[i] = 255;
+    if (reach.beside.pixels()[i] >= near) continue;
+    if (own.pixels()[i] || reach.apart.pixels()[i] > reach.telling) different.pixels()[i] = 255;
   }
   int count = 0;
   const LabelImage part = label_components(different, true, count);
@@ -158,7 +159,7 @@ void fill_kept(Plate& plate, const Exemplar& exemplar, const Habitat& habitat, R
 Plate thin_plate(const Exemplar& exemplar, const Habitat& habitat, Rng rng, const Monitor& monitor) {
   Plate plate;
   const Reach reach = measure_reach(exemplar, habitat);
-  plate.hole = without(with_crumbs(branch_holes(exemplar, habitat, 1.15, reach.margin, 2.0), reach, exemplar.skeleton), habitat.outside);
+  plate.hole = without(with_crumbs(branch_holes(exemplar, habitat, 1.15, reach.margin, 2.0), reach, habitat.own, exemplar.skeleton), habitat.outside);
   float widest = 0.0f;
   const ScalarImage depth = distance_to(invert(plate.hole));
   for (const float d : depth.pixels()) widest = std::max(widest, std::isfinite(d) ? d : 0.0f);
@@ -167,7 +168,7 @@ Plate thin_plate(const Exemplar& exemplar, const Habitat& habitat, Rng rng, cons
   options.quilt.nearby = std::max(0.12 * std::max(plate.hole.width(), plate.hole.height()), 4.0 * widest);
   const Mask landmark = mask_of(habitat, RegionRole::Landmark);
   // The landmark's holes are filled with ground first, so that no branch within it colours the ground beside its rim.
-  Completion filled = complete(exemplar.photo.color, plate.hole, add(never_copied(habitat), plate.hole), options,
+  Completion filled = complete(exemplar.photo.color, plate.hole, add(add(never_copied(habitat), habitat.own), plate.hole), options,
                                rng.child("ground"), monitor.stage("ground", 0.0, 0.8));
   plate.color = std::move(filled.color);
   plate.source = std::move(filled.source);

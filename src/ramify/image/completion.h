@@ -30,8 +30,8 @@ Completion complete(const ColorImage& image, const Mask& hole, const Mask& forbi
 
 // The quilt's picture: patches side by side, their steps spread out. `tone` is a slow picture (canvas size) that the
 // result's tones slower than tone_reach px are drawn to; empty = keep the patches' own. Pixels without a patch are filled
-// with a membrane. keep_edges leaves large steps as they are (water beside land): right for wide holes, wrong for thin
-// ones, whose patches are to follow what surrounds them.
+// with a membrane. keep_edges leaves large steps as they are (water beside land), if the photo has such: right for wide
+// holes, wrong for thin ones, whose patches are to follow what surrounds them.
 ColorImage blend_quilt(const QuiltJob& job, const Quilt& quilt, const ColorImage& tone, double tone_reach,
                        bool keep_edges, const Monitor& monitor);
 
