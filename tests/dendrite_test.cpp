@@ -138,6 +138,23 @@ TEST_CASE("dendrite: refined paths stay within the nodes of the coarse ones") {
   }
 }
 
+TEST_CASE("dendrite: refining within a mask loses no endpoint") {
+  DendriteTarget target = random_target(60, 11);
+  target.lattice.cut_corners = false;
+  target.lattice.allowed.assign(3600, 0);
+  for (int node = 0; node < 3600; ++node) {
+    const double d = std::hypot(node % 60 - 30, node / 60 - 30);
+    target.lattice.allowed[static_cast<std::size_t>(node)] = d > 18 && d < 27;  // a ring
+  }
+  target.generators = {target.lattice.node(52, 30)};
+  DendriteOptions options;
+  options.endpoints = 30;
+  options.refine = 3;
+  const Dendrite grown = grow_dendrite(target, options, Rng(2), {});
+  CHECK(grown.rounds[0] == 30);
+  CHECK(grown.structure.endpoints.size() == 30);
+}
+
 TEST_CASE("dendrite: lightning ends at the bottom and forks downwards; moss stands on its generator") {
   DendriteTarget target = random_target(120, 6);
   target.generators = {target.lattice.node(60, 0)};

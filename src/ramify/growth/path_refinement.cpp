@@ -33,7 +33,7 @@ Lattice fine_lattice(const Lattice& coarse, int n, std::uint64_t seed) {
   fine.connectivity = coarse.connectivity;
   fine.edge_cost = coarse.edge_cost;
   fine.diagonal = coarse.diagonal;
-  fine.cut_corners = coarse.cut_corners;
+  fine.cut_corners = true;  // blocks of a diagonal step touch at a corner only; the coarse lattice saw to what lies beside
   fine.direction_factor = coarse.direction_factor;
   fine.allowed.assign(static_cast<std::size_t>(fine.count()), 0);
   if (const auto* hashed = std::get_if<HashedWeights>(&coarse.weights)) {
