@@ -23,6 +23,7 @@ void add_replay(CLI::App& root, Chosen& chosen);
 
 // commands_paint.cpp
 void add_paint(CLI::App& root, Chosen& chosen);
+void add_figure(CLI::App& root, Chosen& chosen);
 
 // commands_plan.cpp
 void add_dendrite(CLI::App& root, Chosen& chosen);

@@ -9,6 +9,7 @@
 #include "progress.h"
 #include "ramify/core/version.h"
 #include "ramify/image/image_io.h"
+#include "ramify/recipe/figure.h"
 #include "ramify/recipe/outputs.h"
 #include "ramify/recipe/painting.h"
 #include "ramify/recipe/pipeline.h"
@@ -117,19 +118,36 @@ Outcome make_all(PictureArguments& a, const SharedOptions& shared, const std::st
   return outcome;
 }
 
-Outcome replay_painting(const Recipe& recipe, const std::vector<std::string>& folders, const std::string& output,
-                        const SharedOptions& shared, const Monitor& monitor) {
-  PaintingRequest request = painting_from_recipe(recipe, folders);
+// A painting as its recipe says, moving or not.
+Outcome save_again(const LoadedPainting& painting, const std::string& output, const Monitor& monitor) {
+  const PaintingOptions& options = painting.request.options;
+  if (options.animate) save_animation(painting, output, monitor);
+  else save_painting(painting, options.growth, output, monitor);
+  return {{output}, {}, ""};
+}
+
+void check_replayed(PaintingRequest& request, const std::string& output, const SharedOptions& shared) {
   request.limits = shared.load_limits();
   check_painting(request, output);
   if (request.options.animate && extension_of(output) != ".webp") {
     throw OptionError("output", "'" + printable(output, 200) + "'", "the recipe is an animation's; the name must end in .webp");
   }
-  const LoadedPainting painting = load_painting(request, recipe.seed, monitor.stage("load", 0.0, 0.3));
-  const Monitor part = monitor.stage("paint", 0.3, 1.0);
-  if (request.options.animate) save_animation(painting, output, part);
-  else save_painting(painting, request.options.growth, output, part);
-  return {{output}, {}, ""};
+}
+
+Outcome replay_painting(const Recipe& recipe, const std::vector<std::string>& folders, const std::string& output,
+                        const SharedOptions& shared, const Monitor& monitor) {
+  PaintingRequest request = painting_from_recipe(recipe, folders);
+  check_replayed(request, output, shared);
+  return save_again(load_painting(request, recipe.seed, monitor.stage("load", 0.0, 0.3)), output, monitor.stage("paint", 0.3, 1.0));
+}
+
+Outcome replay_figure(const Recipe& recipe, const std::vector<std::string>& folders, const std::string& output, const SharedOptions& shared,
+                      const Monitor& monitor) {
+  FigureRequest request = figure_from_recipe(recipe, folders);
+  check_replayed(request.painting, output, shared);
+  const LoadedFigure figure = load_figure(request, recipe.seed, monitor.stage("figure", 0.0, 0.6));
+  const Monitor part = monitor.stage("paint", 0.6, 1.0);
+  return save_again(paint_figure(request, figure, part), output, part);
 }
 
 }  // namespace
@@ -214,6 +232,7 @@ void add_replay(CLI::App& root, Chosen& chosen) {
       }
       std::vector<std::string> folders{folder_of(a->input)};
       folders.insert(folders.end(), a->inputs.begin(), a->inputs.end());
+      if (recipe.verb == "figure") return replay_figure(recipe, folders, a->output, shared, monitor);
       if (recipe.verb == "paint") return replay_painting(recipe, folders, a->output, shared, monitor);
       check_extension("output", a->output, kPictureExtensions);
       const LoadedRequest loaded = load_recipe_request(recipe, folders, shared.load_limits(), monitor.stage("load", 0.0, 0.3));

@@ -56,8 +56,8 @@ class Occupied {
 
 class Gardener {
  public:
-  Gardener(const std::vector<Stroke>& strokes, Size canvas, const FoliageOptions& options, const Rng& rng)
-      : strokes_(strokes), options_(options), rng_(rng), size_(options.size > 0.0 ? options.size : natural_leaf_size(strokes, canvas)),
+  Gardener(const std::vector<Stroke>& strokes, Size canvas, const FoliageOptions& options, const Rng& rng, const Mask& shape)
+      : strokes_(strokes), options_(options), rng_(rng), shape_(shape), size_(options.size > 0.0 ? options.size : natural_leaf_size(strokes, canvas)),
         occupied_(canvas, kApart * 1.3 * size_) {
     out_.leaf_size = size_;
   }
@@ -135,7 +135,24 @@ class Gardener {
     out.birth = birth;
     out.behind = behind;
     out.tone = rng.uniform();
+    if (!fits(out.pose)) return;
     if (occupied_.take(out.pose.base + 0.5 * full * direction_of(heading), kApart * full)) out_.leaves.push_back(out);
+  }
+
+  // Sampled over the blade's length and half its breadth.
+  bool fits(const LeafPose& pose) const {
+    if (shape_.empty()) return true;
+    int inside = 0, all = 0;
+    const Vec2 x = direction_of(pose.angle);
+    for (double u = 0.05; u < 1.0; u += 0.1) {
+      for (const double v : {-0.2, 0.0, 0.2}) {
+        const Vec2 p = pose.base + pose.size * (u * x + v * pose.breadth * std::sin(kPi * u) * perpendicular(x));
+        const int px = static_cast<int>(std::lround(p.x())), py = static_cast<int>(std::lround(p.y()));
+        inside += shape_.contains(px, py) && shape_(px, py) != 0;
+        ++all;
+      }
+    }
+    return inside >= 0.8 * all;
   }
 
   // A clothoid: ever tighter.
@@ -159,6 +176,7 @@ class Gardener {
   const std::vector<Stroke>& strokes_;
   FoliageOptions options_;
   Rng rng_;
+  const Mask& shape_;
   double size_;
   Occupied occupied_;
   Foliage out_;
@@ -166,8 +184,9 @@ class Gardener {
 
 }  // namespace
 
-Foliage place_foliage(const std::vector<Stroke>& strokes, Size canvas, const FoliageOptions& options, const Rng& rng) {
-  return Gardener(strokes, canvas, options, rng).plant();
+Foliage place_foliage(const std::vector<Stroke>& strokes, Size canvas, const FoliageOptions& options, const Rng& rng,
+                      const Mask& shape) {
+  return Gardener(strokes, canvas, options, rng, shape).plant();
 }
 
 }  // namespace ramify

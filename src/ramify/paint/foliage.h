@@ -43,7 +43,9 @@ struct Foliage {
 };
 
 // Leaves stand along thin branches: on both sides in turn, or by the golden angle around the stem as seen from the side,
-// or in pairs; one at every tip. Leaves that would cover another's middle are left out.
-Foliage place_foliage(const std::vector<Stroke>& strokes, Size canvas, const FoliageOptions& options, const Rng& rng);
+// or in pairs; one at every tip. Leaves that would cover another's middle are left out, and so are those that lie more
+// than a fifth outside `shape` (of the canvas's size; empty = anywhere).
+Foliage place_foliage(const std::vector<Stroke>& strokes, Size canvas, const FoliageOptions& options, const Rng& rng,
+                      const Mask& shape = {});
 
 }  // namespace ramify

@@ -49,7 +49,8 @@ bool has_effect(PaintStyle style, const std::string& option) {
   return option != "glow" || style == PaintStyle::Lightning;
 }
 
-PaintScene prepare_painting(const Skeleton& skeleton, const PaintOptions& options, const Rng& rng, const Monitor& monitor) {
+PaintScene prepare_painting(const Skeleton& skeleton, const PaintOptions& options, const Rng& rng, const Monitor& monitor,
+                            const Mask& shape) {
   if (skeleton.empty()) throw InputError("", "the skeleton has no nodes: there is nothing to paint");
   PaintScene scene;
   scene.size = skeleton.size;
@@ -61,7 +62,7 @@ PaintScene prepare_painting(const Skeleton& skeleton, const PaintOptions& option
   scene.strokes = make_strokes(skeleton, options.stroke);
   monitor.report(0.5);
   scene.reach = growth_reach(scene.strokes);
-  if (options.style == PaintStyle::Vine) scene.foliage = place_foliage(scene.strokes, scene.size, options.foliage, rng.child("foliage"));
+  if (options.style == PaintStyle::Vine) scene.foliage = place_foliage(scene.strokes, scene.size, options.foliage, rng.child("foliage"), shape);
   for (const Stroke& tendril : scene.foliage.tendrils) scene.reach = std::max(scene.reach, tendril.births.back());
   return scene;
 }

@@ -44,7 +44,9 @@ struct PaintScene {
 };
 
 // Throws OptionError for palettes and colours that cannot be read, InputError for a skeleton without nodes.
-PaintScene prepare_painting(const Skeleton& skeleton, const PaintOptions& options, const Rng& rng, const Monitor& monitor);
+// Leaves keep within `shape` unless it is empty.
+PaintScene prepare_painting(const Skeleton& skeleton, const PaintOptions& options, const Rng& rng, const Monitor& monitor,
+                            const Mask& shape = {});
 
 // The drawing when it has grown to `growth` 0..1 of itself; at 1 it is finished.
 Drawing draw_painting(const PaintScene& scene, double growth, const Monitor& monitor);

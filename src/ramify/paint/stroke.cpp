@@ -79,7 +79,7 @@ double outside_parent(const Vec2& p, const Stroke& parent, int around, int reach
 
 // Inside the parent the child's discs stay inside it; at the rim they are a little wider than the child and narrow from
 // there, so that outlines meet in a web instead of a notch.
-void widen_into_parent(Stroke& child, const Stroke& parent) {
+void widen_into_parent(Stroke& child, const Stroke& parent, double flow) {
   const double wide = parent.radii[child.parent_vertex];
   const int reach = static_cast<int>(4.0 * wide) + 6;
   const int n = static_cast<int>(child.points.size());
@@ -95,7 +95,7 @@ void widen_into_parent(Stroke& child, const Stroke& parent) {
   for (int i = 0; i < n; ++i) {
     const double beyond = (arcs[i] - arcs[child.rim]) / (kFlareReach * wide + 1e-9);
     if (beyond > 6.0) break;
-    const double flare = std::min(room, kFlare * child.radii[i]) * std::exp(-std::max(0.0, beyond) * 1.6);
+    const double flare = std::min(room, kFlare * std::min(1.0, flow / 0.6) * child.radii[i]) * std::exp(-std::max(0.0, beyond) * 1.6);
     child.radii[i] += flare;
     if (i > child.rim) continue;
     const double inside = -outside_parent(child.points[i], parent, child.parent_vertex, reach);
@@ -147,7 +147,7 @@ std::vector<Stroke> make_strokes(const Skeleton& skeleton, const StrokeOptions& 
       const int shift = static_cast<int>(parent.points.size()) - curves[static_cast<std::size_t>(curve.parent)].count();
       stroke.parent_vertex = std::clamp(curve.parent_vertex + shift, 0, static_cast<int>(parent.points.size()) - 1);
       launch_from_parent(stroke, parent, options);
-      widen_into_parent(stroke, parent);
+      widen_into_parent(stroke, parent, options.flow);
       born = parent.births[static_cast<std::size_t>(stroke.parent_vertex)];
     }
     taper_tip(stroke, options.taper);

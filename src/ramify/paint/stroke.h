@@ -26,7 +26,7 @@ struct StrokeOptions {
   double width = 1.0;      // factor on all radii, > 0
   double thinnest = 0.35;  // px, least radius before tapering, > 0
   double taper = 0.7;      // 0 = blunt tips as wide as the skeleton says, 1 = long fine points
-  double flow = 0.6;       // 0 = side branches start where the skeleton says, 1 = they leave along their parent
+  double flow = 0.6;       // 0 = side branches start as the skeleton says, 1 = along their parent, widening into it
 };
 
 // Stroke i is branch i of branch_tree(skeleton).

@@ -35,15 +35,11 @@ ColorImage covering(const ColorImage& photo, Size size) {
   return crop(resize(photo, scaled), (scaled.width - size.width) / 2, (scaled.height - size.height) / 2, size.width, size.height);
 }
 
-void add_input(LoadedPainting& out, const std::string& role, const std::string& path) {
-  out.recipe.inputs.push_back({role, fs::path(path).filename().string(), sha256_hex(read_file(path, std::size_t{1} << 30))});
-  out.files.push_back(path);
-}
-
 void load_over(LoadedPainting& out, Size canvas, const Monitor& monitor) {
   const PaintingRequest& request = out.request;
   const Photo photo = load_photo(request.over, request.limits, monitor);
-  add_input(out, "photo", request.over);
+  out.recipe.inputs.push_back(file_input("photo", request.over));
+  out.files.push_back(request.over);
   const bool sized = !request.options.size.empty() || request.options.scale != 1.0;
   if (!sized) {
     out.size = photo.color.size();
@@ -62,7 +58,7 @@ std::string recipe_at(const LoadedPainting& painting, double growth, bool animat
   PaintingOptions options = painting.request.options;
   options.growth = growth;
   options.animate = animate;
-  recipe.options = option_values(describe(options));
+  for (const auto& [name, value] : option_values(describe(options))) recipe.options[name] = value;
   return recipe_text(recipe);
 }
 
@@ -119,28 +115,39 @@ void check_painting(PaintingRequest& request, const std::string& output) {
 }
 
 LoadedPainting load_painting(const PaintingRequest& request, std::uint64_t seed, const Monitor& monitor) {
-  LoadedPainting out;
-  out.request = request;
-  out.recipe = {RAMIFY_VERSION, "paint", seed, {}, {}};
-  LoadedSkeleton file = load_any_skeleton(request.skeleton);
+  const LoadedSkeleton file = load_any_skeleton(request.skeleton);
   for (const std::string& note : file.notes) monitor.note(note);
-  add_input(out, "skeleton", request.skeleton);
-  const Skeleton& skeleton = file.skeleton;
-  const std::string name = printable(request.skeleton, 300);
+  Recipe recipe{RAMIFY_VERSION, "paint", seed, {file_input("skeleton", request.skeleton)}, {}};
+  return lay_out_painting(request, file.skeleton, printable(request.skeleton, 300), std::move(recipe), {request.skeleton}, {}, monitor);
+}
+
+LoadedPainting lay_out_painting(const PaintingRequest& request, const Skeleton& skeleton, const std::string& name, Recipe recipe,
+                                std::vector<std::string> files, const Mask& shape, const Monitor& monitor) {
   if (skeleton.empty()) throw InputError(name, "the skeleton has no nodes: there is nothing to paint");
   if (skeleton.dim != 2) throw InputError(name, "is a skeleton in space; paint draws flat ones");
   if (skeleton.size.width < 1 || skeleton.size.height < 1) throw InputError(name, "has no canvas: its size must be at least 1x1 px");
+  LoadedPainting out;
+  out.request = request;
+  out.recipe = std::move(recipe);
+  out.files = std::move(files);
   const Size canvas = skeleton.size;
   const PaintingOptions& o = request.options;
-  out.size = o.size.empty() ? Size{static_cast<int>(std::lround(std::max(1.0, std::min(1e9, o.scale * canvas.width)))),
-                                   static_cast<int>(std::lround(std::max(1.0, std::min(1e9, o.scale * canvas.height))))}
-                            : parse_canvas(o.size);
-  fit_canvas(canvas, out);
-  if (o.size.empty()) out.scale = o.scale, out.shift = Vec2::Zero();
+  if (o.size.empty()) {
+    const auto scaled = [&](int side) { return static_cast<int>(std::lround(std::clamp(o.scale * side, 1.0, 1e9))); };
+    out.size = {scaled(canvas.width), scaled(canvas.height)};
+    out.scale = o.scale;
+  } else {
+    out.size = parse_canvas(o.size);
+    fit_canvas(canvas, out);
+  }
   check_canvas(out.size, request.limits, kBytesPerPixel);
   if (!request.over.empty()) load_over(out, canvas, monitor);
-  out.scene = prepare_painting(skeleton, o.paint, Rng(seed).child("paint"), monitor);
+  out.scene = prepare_painting(skeleton, o.paint, Rng(out.recipe.seed).child("paint"), monitor, shape);
   return out;
+}
+
+RecipeInput file_input(const std::string& role, const std::string& path) {
+  return {role, fs::path(path).filename().string(), sha256_hex(read_file(path, std::size_t{1} << 30))};
 }
 
 void save_painting(const LoadedPainting& painting, double growth, const std::string& path, const Monitor& monitor) {

@@ -49,6 +49,13 @@ void check_painting(PaintingRequest& request, const std::string& output);
 
 LoadedPainting load_painting(const PaintingRequest& request, std::uint64_t seed, const Monitor& monitor);
 
+// The same for a skeleton that is no file; `recipe` and `files` say what it was made from. `name` stands in messages.
+LoadedPainting lay_out_painting(const PaintingRequest& request, const Skeleton& skeleton, const std::string& name, Recipe recipe,
+                                std::vector<std::string> files, const Mask& shape, const Monitor& monitor);
+
+// A file as a recipe names it.
+RecipeInput file_input(const std::string& role, const std::string& path);
+
 // Writes one moment, .svg or a picture.
 void save_painting(const LoadedPainting& painting, double growth, const std::string& path, const Monitor& monitor);
 

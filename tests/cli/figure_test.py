@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""figure: shapes and texts that become trees (RELIABILITY rows 33, 34, 71, 72)."""
+import json
+import os
+import pathlib
+import unittest
+import xml.etree.ElementTree as ET
+
+import numpy
+from PIL import Image
+from scipy import ndimage
+
+from harness import CliTest
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+class Figure(CliTest):
+    def shape(self, name="shape.png", mode="L"):
+        """A black ring with a stem, and a block apart."""
+        y, x = numpy.mgrid[:140, :180]
+        ring = (numpy.hypot(x - 60, y - 60) < 48) & (numpy.hypot(x - 60, y - 60) > 22)
+        shape = ring | ((abs(x - 60) < 4) & (y > 60) & (y < 130)) | ((x > 130) & (x < 165) & (y > 40) & (y < 110))
+        Image.fromarray(numpy.where(shape, 0, 255).astype("uint8")).convert(mode).save(self.path(name))
+        return self.path(name), shape
+
+    def test_a_bitmap_is_filled_and_not_left(self):
+        path, shape = self.shape()
+        self.ok("figure", path, "-o", self.path("a.png"), "--points", "300")
+        alpha = numpy.asarray(Image.open(self.path("a.png")))[..., 3]
+        near = ndimage.binary_dilation(shape, numpy.ones((3, 3)))
+        self.assertEqual(int((alpha[~near] > 3).sum()), 0)
+        within = ndimage.distance_transform_edt(alpha < 100)
+        self.assertGreater((within[shape] < 9).mean(), 0.95)  # no corner stays empty
+        self.ok("figure", self.shape("rgba.png", "RGBA")[0], "-o", self.path("b.png"), "--points", "300")
+        self.assertEqual(alpha.tolist(), numpy.asarray(Image.open(self.path("b.png")))[..., 3].tolist())
+
+    def test_the_skeleton_is_one_tree_an_island_or_one_over_bridges(self):
+        path, _ = self.shape()
+        for join, roots in (("apart", 2), ("bridges", 1)):
+            self.ok("figure", path, "-o", self.path("a.json"), "--join", join)
+            nodes = json.loads(pathlib.Path(self.path("a.json")).read_text())["nodes"]
+            self.assertEqual(sum(node[4] is None or node[4] < 0 for node in nodes), roots)
+
+    def test_text_in_any_script(self):
+        for text in ("Äpfel", "Ωmega", "Лес", "A\\nB"):
+            self.ok("figure", "--text", text, "-o", self.path("a.png"), "--text-size", "80")
+            self.assertGreater(numpy.asarray(Image.open(self.path("a.png")))[..., 3].mean(), 2)
+        self.ok("figure", "--text", "AB", "-o", self.path("b.png"), "--text-size", "80")
+        with Image.open(self.path("a.png")) as below, Image.open(self.path("b.png")) as beside:
+            self.assertGreater(below.size[1], 1.5 * beside.size[1])
+            self.assertLess(below.size[0], beside.size[0])
+
+    def test_the_letters_are_those_pillow_draws(self):
+        from PIL import ImageDraw, ImageFont
+        font = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
+        self.ok("figure", "--text", "Rag", "--font", font, "--text-size", "120", "-o", self.path("a.json"), "--debug-dir", self.path("d"))
+        ours = numpy.asarray(Image.open(self.path("d/region.png"))) > 0
+        page = Image.new("L", (ours.shape[1], ours.shape[0]))
+        ImageDraw.Draw(page).text((20, 0), "Rag", 255, ImageFont.truetype(font, 120))
+        theirs = numpy.asarray(page) > 127
+        def cropped(mask):
+            rows, columns = numpy.where(mask.any(1))[0], numpy.where(mask.any(0))[0]
+            return mask[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1]
+        a, b = cropped(ours), cropped(theirs)
+        self.assertLessEqual(max(abs(a.shape[0] - b.shape[0]), abs(a.shape[1] - b.shape[1])), 3)
+        self.assertLess(abs(a.sum() / b.sum() - 1), 0.02)
+
+    def test_every_drawing_of_paint_and_same_bytes(self):
+        path, _ = self.shape()
+        for name, extra in (("a.svg", ["--preset", "ivy"]), ("a.png", ["--preset", "blossom", "--scale", "2"]), ("a.webp", ["--animate", "--frames", "3"])):
+            made = set()
+            for threads in (1, 2, 8):
+                self.ok("figure", path, "-o", self.path(name), "--seed", "3", "--threads", threads, *extra)
+                made.add(self.digest(self.path(name)))
+            self.ok("replay", self.path(name), "-o", self.path("again" + name[1:]))
+            made.add(self.digest(self.path("again" + name[1:])))
+            self.assertEqual(len(made), 1, name)
+        ET.parse(self.path("a.svg"))
+        self.ok("figure", "--text", "so", "--text-size", "60", "-o", self.path("t.svg"))
+        self.ok("replay", self.path("t.svg"), "-o", self.path("u.svg"))
+        self.assertEqual(self.digest(self.path("t.svg")), self.digest(self.path("u.svg")))
+
+    def test_intermediates(self):
+        path, _ = self.shape()
+        self.ok("figure", path, "-o", self.path("a.svg"), "--debug-dir", self.path("d"))
+        self.assertEqual(sorted(os.listdir(self.path("d"))), ["cells.png", "painting.svg", "region.png", "sites.csv", "skeleton.json"])
+
+    def test_what_cannot_be_filled(self):
+        white, dot = self.path("w.png"), self.path("dot.png")
+        Image.new("L", (40, 30), 255).save(white)
+        picture = Image.new("L", (40, 30), 255)
+        picture.putpixel((5, 5), 0)
+        picture.save(dot)
+        out = self.path("o.png")
+        self.fails(3, "empty", "figure", white, "-o", out)
+        self.ok("figure", white, "--invert", "-o", out)
+        os.remove(out)
+        self.fails(3, "smaller than 3 px", "figure", dot, "-o", out)
+        self.fails(3, "font", "figure", "--text", "a", "--font", "No Such Font At All", "-o", out)
+        self.fails(3, "U+", "figure", "--text", "\U0001F9FF", "-o", out)
+        self.fails(2, "empty", "figure", "--text", " ", "-o", out)
+        self.fails(2, "", "figure", "-o", out)
+        self.fails(5, "MiB", "figure", "--text", "wide", "--text-size", "9000", "-o", out, "--limit-pixels", "1e6")
+
+    def test_options_without_effect_are_refused(self):
+        path, _ = self.shape()
+        out = self.path("o.png")
+        for extra in (["--text", "x"], ["--font", "DejaVu Sans"], ["--baseline"], ["--border-points", "9"], ["--bridge", "3"],
+                      ["--lines", "straight", "--curl", "0.5"], ["--leaf", "oak"]):
+            self.fails(2, "no effect", "figure", path, "-o", out, *extra)
+        self.fails(2, "no effect", "figure", "--text", "x", "--invert", "-o", out)
+        self.fails(2, "no effect", "figure", path, "-o", self.path("o.json"), "--palette", "gold")
+        self.fails(2, "start", "figure", path, "-o", out, "--start", "middle")
+        self.fails(2, "", "figure", path, "-o", out, "--points", "-3")
+
+
+if __name__ == "__main__":
+    unittest.main()
