@@ -6,6 +6,7 @@
 #include "ramify/core/parallel.h"
 #include "ramify/growth/grow.h"
 #include "ramify/skeleton/branches.h"
+#include "support/skeleton_checks.h"
 #include "support/wavy_tree.h"
 
 using namespace ramify;
@@ -20,24 +21,6 @@ GrowthTarget canvas(int width, int height) {
   GrowthTarget target;
   target.size = {width, height};
   return target;
-}
-
-double sign_of_area(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
-
-// Pairs of edges without a common node whose segments cross: every pair is looked at.
-int crossing_pairs(const Skeleton& s) {
-  int crossings = 0;
-  for (int i = 0; i < s.count(); ++i) {
-    if (s[i].parent == kNone) continue;
-    const Vec2 a = s[i].xy(), b = s[s[i].parent].xy();
-    for (int j = i + 1; j < s.count(); ++j) {
-      if (s[j].parent == kNone || s[j].parent == i || s[i].parent == s[j].parent || s[i].parent == j) continue;
-      const Vec2 c = s[j].xy(), d = s[s[j].parent].xy();
-      if (std::max(a.x(), b.x()) < std::min(c.x(), d.x()) || std::max(c.x(), d.x()) < std::min(a.x(), b.x())) continue;
-      crossings += sign_of_area(a, b, c) * sign_of_area(a, b, d) <= 0 && sign_of_area(c, d, a) * sign_of_area(c, d, b) <= 0;
-    }
-  }
-  return crossings;
 }
 
 double length_of(const Skeleton& s) {
@@ -73,7 +56,7 @@ TEST_CASE("grown branches never cross") {
       const Skeleton grown = grow_from_style(style, canvas(500, 350), GrowOptions{}, Rng(seed), Monitor{});
       grown.check();
       INFO("kind " << kind << " seed " << seed);
-      CHECK(crossing_pairs(grown) == 0);
+      CHECK(test::crossing_pairs(grown) == 0);
     }
   }
 }
@@ -255,7 +238,7 @@ TEST_CASE("a painted letter is filled and nothing else") {
     CHECK(figures.bright_length >= 0.9);
     CHECK(figures.rank_correlation >= 0.9);
     CHECK(figures.white_reached >= 0.9);
-    CHECK(crossing_pairs(grown) == 0);
+    CHECK(test::crossing_pairs(grown) == 0);
   }
 }
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kShortList = 160;        // windows whose costly terms are looked at
 constexpr double kHeadingWeight = 2.0; // PICTURES 12.2-5
+constexpr double kWidthWeight = 1.0;   // per squared log ratio of radii
 constexpr int kHeadingReach = 6;       // extensions over which a chord is taken
 constexpr double kReuse = 0.5;         // ALGORITHMS 4.2: Q (1 + uses)^-0.5
 constexpr double kVerbatimRun = 4.0;   // extensions copied in one piece before the next is made unlikely
@@ -55,7 +56,7 @@ struct Scorer {
     return -heading_weight * one_minus_cosine(branch.points.back() + step - branch.points[from], *intended);
   }
 
-  // Heading drift bounded by the exemplar's own 95 % values (PICTURES 1).
+  // Heading drift and curls bounded by the exemplar's own 95 and 97 % values (PICTURES 1).
   double drift(const Vec2& step) const {
     const Hierarchy& h = state.style.hierarchy;
     if (aim.guided) return 0.0;  // the user's course may turn more than the exemplar's
@@ -67,6 +68,12 @@ struct Scorer {
       const double before = angle_of(branch.points[at] - branch.points[at - m]);
       const double excess = std::abs(wrap_angle(angle_of(step) - before)) - h.lag_turn[l];
       if (excess > 0.0) penalty += 0.5 * std::pow(excess / 0.25, 2);
+    }
+    for (std::size_t l = 0; l < h.lags.size(); ++l) {
+      const int at = tip + aim.count - h.lags[l];
+      if (at < 0 || at > tip) continue;
+      const double chord = (branch.points.back() + step - branch.points[at]).norm() / (h.lags[l] * state.style.step);
+      if (chord < h.lag_chord[l]) penalty += 0.5 * std::pow((h.lag_chord[l] - chord) / 0.1, 2);
     }
     return -penalty;
   }
@@ -147,9 +154,14 @@ std::vector<Candidate> find_candidates(const GrowthState& state, int number, con
   }
   const std::vector<double> remaining = remaining_scores(state, scorer.remaining);
   const bool plain = state.options.paper_exact;
+  // Likeness ends at a factor of two; a wide branch must not take a thin one's bends however well they lead.
+  const auto width = [&](int v) {
+    const double ratio = std::log(state.style.bending.smooth_radius[v] / branch.radii.back());
+    return -kWidthWeight * ratio * ratio;
+  };
   std::vector<Candidate> list;
   for (int v = 0; v < state.style.bending.vertex_count(); ++v) {
-    const double common = plain ? 0.0 : remaining[v] - kReuse * std::log(1.0 + state.window_uses[v]);
+    const double common = plain ? 0.0 : remaining[v] + width(v) - kReuse * std::log(1.0 + state.window_uses[v]);
     if (std::isfinite(qualities.plain[v])) list.push_back({v, false, 0.0, qualities.plain[v] + common});
     if (state.style.mirror && std::isfinite(qualities.mirrored[v])) list.push_back({v, true, 0.0, qualities.mirrored[v] + common});
   }

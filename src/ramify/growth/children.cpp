@@ -258,7 +258,7 @@ int place_child(GrowthState& state, const ChildPlan& plan, Rng& rng) {
   const double reach = std::min(0.6 * child.length, 4.0 * state.spacing + 40.0);
   state.branches[number].heading =
       plan.heading ? *plan.heading
-                   : draw_heading(state, child.points.front(), child.start_direction + 0.5 * template_turn(state, child),
+                   : draw_heading(state, child.points.front(), child.start_direction + template_turn(state, child),
                                   child.order, reach, tree_root(state, plan.parent), rng);
   if (plan.followed == kNone) aim_at_frame(state, state.branches[number]);
   grow_branch(state, number, rng);

@@ -98,12 +98,11 @@ class Stepper {
   // False when the extension meets something; an extension that may end on what it meets is cut there.
   bool make_room(Extension& extension) const {
     if (state_.options.raster_density) return !crosses_density(state_, number_, extension);
-    const Hit hit = state_.occupancy.meet(state_.branches, number_, extension);
-    if (!hit.blocked) return true;
     const GrowingBranch& branch = self();
-    if (hit.capsule == kNone || !wants_join(state_, branch) || branch.arc(state_.style.step) < 0.3 * branch.length) {
-      return false;
-    }
+    const bool joining = wants_join(state_, branch) && branch.arc(state_.style.step) >= 0.3 * branch.length;
+    const Hit hit = state_.occupancy.meet(state_.branches, number_, extension, joining);
+    if (!hit.blocked) return true;
+    if (hit.capsule == kNone || !joining) return false;
     const Capsule& target = state_.occupancy.index()[hit.capsule];
     return !related(state_.branches, number_, target.owner) && end_on(extension, hit.point, target);
   }

@@ -24,6 +24,11 @@ double habitat_at(const Style& style, const GrowthTarget& target, const Vec2& po
   return std::max(0.05, value);
 }
 
+// What is painted is filled however near branches come to each other.
+KeptRoom kept_room(const Style& style, const Ground& ground, double spread) {
+  return {spread, ground.painted() ? 0.0 : style.hierarchy.clearance, style.hierarchy.opening};
+}
+
 double widest_radius(const Style& style, const GrowthTarget& target) {
   double widest = *std::max_element(style.bending.radius.begin(), style.bending.radius.end());
   for (const GrowthRoot& root : target.roots) widest = std::max(widest, root.radius.value_or(0.0));
@@ -44,7 +49,7 @@ GrowthState::GrowthState(const Style& style_, const GrowthTarget& target_, const
       spacing(painted_spacing(style, ground)),
       coverage(target.size, spacing, [&](const Vec2& p) { return ground.wanted(p) * habitat_at(style, target, p); }),
       demand(ground.painted() ? Demand(ground, spacing, options.length) : Demand()),
-      occupancy(ground, widest_radius(style, target), spread(), style.step),
+      occupancy(ground, widest_radius(style, target), kept_room(style, ground, spread()), style.step),
       matcher(style.bending),
       window_uses(style.bending.point.size(), 0),
       template_uses(style.hierarchy.branches.size(), 0) {

@@ -8,7 +8,6 @@ namespace ramify {
 namespace {
 
 constexpr int kDirections = 48;
-constexpr double kSpread = 0.8;      // rad (PICTURES 12.2-5)
 constexpr double kFreePower = 1.5;
 constexpr double kFloor = 0.004;         // of a bin: what was never seen is not quite impossible
 constexpr double kLeastStrength = 0.15;  // below it an order has no direction of its own (PICTURES 1)
@@ -33,11 +32,11 @@ double draw_heading(const GrowthState& state, const Vec2& from, double start, in
   if (state.options.tropism >= 0.0) absolute_power = state.options.tropism;
   const Vec2 outward = from - root;
   const double ray_power = ray.strength < kLeastStrength || outward.norm() < 4.0 * state.style.step ? 0.0 : ray.strength;
-  const double skip = state.spacing;
+  const double skip = state.spacing, spread = state.style.hierarchy.chord_spread[o];
   std::vector<double> weights;
   for (int i = 0; i < kDirections; ++i) {
     const double direction = -kPi + 2.0 * kPi * i / kDirections;
-    const double turn = wrap_angle(direction - start) / kSpread;
+    const double turn = wrap_angle(direction - start) / spread;
     double weight = std::exp(-0.5 * turn * turn);
     weight *= std::pow(absolute.share[static_cast<std::size_t>(heading_bin(direction))] + kFloor, absolute_power);
     if (ray_power > 0.0) {

@@ -16,6 +16,12 @@ double kept_gap(const Capsule& a, const Capsule& b) {
   return std::max(1.0, 0.5 * std::min(std::min(a.radius_a, a.radius_b), std::min(b.radius_a, b.radius_b)));
 }
 
+// Roots that start where another does, as strokes from one cloud or vessels from one disc.
+bool share_start(const GrowingBranch& a, const GrowingBranch& b) {
+  return a.parent == kNone && b.parent == kNone &&
+         (a.points.front() - b.points.front()).norm() < a.radii.front() + b.radii.front() + 4.0;
+}
+
 bool meets_itself(const Capsule& own, const Extension& extension, std::size_t from, double step) {
   for (std::size_t j = from + 1; j < extension.points.size(); ++j) {
     const double arc = static_cast<double>(j - from) * step;
@@ -28,9 +34,9 @@ bool meets_itself(const Capsule& own, const Extension& extension, std::size_t fr
 
 }  // namespace
 
-Occupancy::Occupancy(const Ground& ground, double widest, double spread, double step)
+Occupancy::Occupancy(const Ground& ground, double widest, const KeptRoom& room, double step)
     : ground_(ground),
-      spread_(spread),
+      room_(room),
       step_(step),
       widest_(widest),
       index_(Vec2(-widest, -widest), Vec2(ground.size().width + widest, ground.size().height + widest),
@@ -51,16 +57,17 @@ bool Occupancy::blocked_ground(const Capsule& edge) const {
 }
 
 Occupancy::Verdict Occupancy::judge(const std::vector<GrowingBranch>& branches, int number, const Capsule& edge,
-                                    const Capsule& other) const {
+                                    const Capsule& other, double clearance) const {
   const GrowingBranch& branch = branches[number];
   const double widths = edge.widest() + other.widest();
+  const double room = std::max(kept_gap(edge, other), std::min(clearance, room_.opening * edge.place * step_));
   if (other.owner == number) {
     if (other.place == kLinkPlace || edge.place - other.place < 2) return Verdict::Clear;
     const double distance = segment_distance(edge.a, edge.b, other.a, other.b);
     if (distance < 0.5 * step_) return Verdict::Blocked;
     // Near along the branch it may come near in space: a bend, not a touch.
-    if ((edge.place - other.place) * step_ < 3.0 * widths + 4.0 * step_) return Verdict::Clear;
-    return distance < widths + kept_gap(edge, other) ? Verdict::Blocked : Verdict::Clear;
+    if ((edge.place - other.place) * step_ < 3.0 * (widths + 0.5 * clearance) + 4.0 * step_) return Verdict::Clear;
+    return distance < widths + std::max(kept_gap(edge, other), 0.5 * clearance) ? Verdict::Blocked : Verdict::Clear;
   }
   const double distance = segment_distance(edge.a, edge.b, other.a, other.b);
   if (branch.parent != kNone && other.owner == branch.parent && other.place != kLinkPlace) {
@@ -74,10 +81,14 @@ Occupancy::Verdict Occupancy::judge(const std::vector<GrowingBranch>& branches, 
       return distance < clear ? Verdict::Blocked : Verdict::Clear;
     }
   }
-  return distance < widths + kept_gap(edge, other) ? Verdict::Meets : Verdict::Clear;
+  if (share_start(branch, branches[other.owner]) && edge.place * step_ < 2.0 * widths + 4.0 * step_) {
+    return distance < 0.25 * step_ ? Verdict::Blocked : Verdict::Clear;
+  }
+  return distance < widths + room ? Verdict::Meets : Verdict::Clear;
 }
 
-Hit Occupancy::meet(const std::vector<GrowingBranch>& branches, int number, const Extension& extension) const {
+Hit Occupancy::meet(const std::vector<GrowingBranch>& branches, int number, const Extension& extension, bool joining) const {
+  const double clearance = joining ? 0.0 : room_.clearance;
   const GrowingBranch& branch = branches[number];
   Vec2 from = branch.points.back();
   double from_radius = branch.radii.back();
@@ -86,9 +97,9 @@ Hit Occupancy::meet(const std::vector<GrowingBranch>& branches, int number, cons
                        number, branch.count() - 1 + static_cast<int>(j)};
     if (blocked_ground(edge)) return {true, kNone, static_cast<int>(j)};
     Hit hit;
-    const Vec2 reach = Vec2::Constant(1.5 * edge.widest() + 3.0 + 0.5 * step_);
+    const Vec2 reach = Vec2::Constant(1.5 * edge.widest() + clearance + 3.0 + 0.5 * step_);
     index_.visit_box(edge.a.cwiseMin(edge.b) - reach, edge.a.cwiseMax(edge.b) + reach, [&](int capsule) {
-      const Verdict verdict = judge(branches, number, edge, index_[capsule]);
+      const Verdict verdict = judge(branches, number, edge, index_[capsule], clearance);
       if (verdict == Verdict::Clear) return true;
       const bool worse = verdict == Verdict::Blocked || !hit.blocked;
       if (worse) hit = {true, verdict == Verdict::Meets ? capsule : kNone, static_cast<int>(j)};
@@ -118,14 +129,14 @@ bool Occupancy::link_blocked(const std::vector<GrowingBranch>& branches, int par
 
 double Occupancy::density(const std::vector<GrowingBranch>& branches, int number, const Vec2& point, int node) const {
   const GrowingBranch& branch = branches[number];
-  const double own = 3.0 * spread_ + 2.0 * branch.radii.back();
-  const double nearest = index_.nearest_rim(point, 2.5 * spread_, [&](const Capsule& other) {
+  const double own = 3.0 * room_.spread + 2.0 * branch.radii.back();
+  const double nearest = index_.nearest_rim(point, 2.5 * room_.spread, [&](const Capsule& other) {
     if (other.owner == number) return (node - other.place) * step_ >= own;
     if (other.place == kLinkPlace) return false;
     if (other.owner != branch.parent || node * step_ >= own) return true;
     return std::abs(other.place - branch.parent_node) * step_ >= own;
   });
-  return std::exp(-nearest * nearest / (spread_ * spread_));
+  return std::exp(-nearest * nearest / (room_.spread * room_.spread));
 }
 
 }  // namespace ramify

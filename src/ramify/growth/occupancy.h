@@ -15,10 +15,17 @@ struct Hit {
   int point = 0;            // the extension's point whose edge met it
 };
 
+// Room that branches leave each other, as the exemplar's do.
+struct KeptRoom {
+  double spread = 16.0;    // half of rho, px
+  double clearance = 0.0;  // px between the rims of strangers
+  double opening = 0.0;    // px more room per px of a branch's own arc, until the clearance is reached
+};
+
 class Occupancy {
  public:
-  // spread: rho, px. step: h, px.
-  Occupancy(const Ground& ground, double widest, double spread, double step);
+  // step: h, px.
+  Occupancy(const Ground& ground, double widest, const KeptRoom& room, double step);
 
   const CapsuleIndex& index() const { return index_; }
 
@@ -27,8 +34,8 @@ class Occupancy {
   void remove_last() { index_.remove_last(); }
 
   // Whether `extension` of branch `number` crosses, touches or comes too near anything, itself included, or enters what
-  // is blocked.
-  Hit meet(const std::vector<GrowingBranch>& branches, int number, const Extension& extension) const;
+  // is blocked. joining: it may come near what it ends on.
+  Hit meet(const std::vector<GrowingBranch>& branches, int number, const Extension& extension, bool joining = false) const;
 
   // Whether the link edge of a child would cross anything.
   bool link_blocked(const std::vector<GrowingBranch>& branches, int parent, int parent_node, const Vec2& start) const;
@@ -39,11 +46,12 @@ class Occupancy {
 
  private:
   enum class Verdict { Clear, Blocked, Meets };
-  Verdict judge(const std::vector<GrowingBranch>& branches, int number, const Capsule& edge, const Capsule& other) const;
+  Verdict judge(const std::vector<GrowingBranch>& branches, int number, const Capsule& edge, const Capsule& other,
+                double clearance) const;
   bool blocked_ground(const Capsule& edge) const;
 
   const Ground& ground_;
-  double spread_;
+  KeptRoom room_;
   double step_;
   double widest_;
   CapsuleIndex index_;

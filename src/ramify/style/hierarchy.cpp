@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ramify/geometry/capsule_field.h"
+#include "ramify/style/room.h"
 
 namespace ramify {
 namespace {
@@ -63,9 +64,10 @@ void measure_headings(Hierarchy& hierarchy, const BendingModel& bending) {
 void measure_lags(Hierarchy& hierarchy, const BendingModel& bending) {
   const int m = bending.extension;
   for (int lag = 2 * m; lag <= 64 * m; lag *= 2) {
-    std::vector<double> turns;
+    std::vector<double> turns, chords;
     for (int b = 0; b < bending.branch_count(); ++b) {
       for (int i = bending.first[b] + m; i + lag < bending.first[b + 1]; ++i) {
+        chords.push_back((bending.point[i + lag] - bending.point[i]).norm() / (lag * bending.step));
         const double before = angle_of(bending.point[i] - bending.point[i - m]);
         const double after = angle_of(bending.point[i + lag] - bending.point[i + lag - m]);
         turns.push_back(std::abs(wrap_angle(after - before)));
@@ -75,6 +77,8 @@ void measure_lags(Hierarchy& hierarchy, const BendingModel& bending) {
     std::sort(turns.begin(), turns.end());
     hierarchy.lags.push_back(lag);
     hierarchy.lag_turn.push_back(turns[static_cast<std::size_t>(0.95 * (turns.size() - 1))]);
+    std::sort(chords.begin(), chords.end());
+    hierarchy.lag_chord.push_back(chords[static_cast<std::size_t>(0.03 * (chords.size() - 1))]);
   }
 }
 
@@ -195,6 +199,7 @@ void measure_hierarchy(Hierarchy& hierarchy, const BendingModel& bending, Size s
   measure_ratio(hierarchy);
   measure_habitat(hierarchy, bending, size);
   hierarchy.spacing = measure_spacing(bending, size);
+  measure_room(hierarchy, bending, size);
   std::vector<double> radii = bending.radius;
   std::sort(radii.begin(), radii.end());
   hierarchy.least_radius = std::max(0.5, radii[radii.size() * 3 / 100]);

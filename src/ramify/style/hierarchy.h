@@ -50,12 +50,16 @@ struct Hierarchy {
   std::array<Headings, kHeadingOrders> ray_headings;  // direction relative to the ray from the tree's root
   std::vector<int> lags;               // vertices
   std::vector<double> lag_turn;        // rad: 95 % of the turns between directions that many vertices apart
+  std::vector<double> lag_chord;       // chord / arc over that many vertices that 97 % exceed
   std::vector<double> tip_profile;     // radius j vertices before a tip over that 2m vertices before it; 2m + 1 entries
   double most_ratio = 0.95;            // radius of a child over its parent's that four in five stay below, at least 0.95
   double least_radius = 0.5;           // px: 3 % of the vertices are thinner
   int side_gap = 1;                    // vertices: 10 % of the gaps between furcations to the same side are shorter
   int highest_order = 0;
-  double spacing = 32.0;               // px, median distance to the nearest branch midway between branches
+  double spacing = 32.0;               // px, rho: median distance to the nearest branch midway between branches
+  double clearance = 1.0;              // px between the rims of unrelated branches that 95 % of the vertices keep
+  double opening = 0.2;                // a child's distance from its parent's rim over its arc that 90 % exceed
+  std::array<double, kHeadingOrders> chord_spread{};  // rad: of the angle between a child's chord and its parent, by order
   double total_length = 0.0;           // px
   int furcation_gap = 1;               // vertices: 5 % of the gaps between furcations are shorter
   std::vector<double> habitat;         // kHabitatCells^2, row by row: length per area, blurred, 1 = the dense part

@@ -85,12 +85,16 @@ Json hierarchy_json(const Hierarchy& h) {
           {"ray_headings", headings_json(h.ray_headings)},
           {"lags", list_json(h.lags)},
           {"lag_turn", list_json(h.lag_turn)},
+          {"lag_chord", list_json(h.lag_chord)},
           {"tip_profile", list_json(h.tip_profile)},
           {"most_ratio", h.most_ratio},
           {"least_radius", h.least_radius},
           {"side_gap", h.side_gap},
           {"highest_order", h.highest_order},
           {"spacing", h.spacing},
+          {"clearance", h.clearance},
+          {"opening", h.opening},
+          {"chord_spread", list_json(h.chord_spread)},
           {"total_length", h.total_length},
           {"furcation_gap", h.furcation_gap},
           {"habitat", list_json(h.habitat)}};
@@ -247,12 +251,17 @@ Hierarchy read_hierarchy(const Reader& in, const BendingModel& bending) {
   h.ray_headings = read_headings(in["ray_headings"]);
   h.lags = in["lags"].wholes(1, 1 << 20);
   h.lag_turn = in["lag_turn"].reals(h.lags.size());
+  h.lag_chord = in["lag_chord"].reals(h.lags.size());
   h.tip_profile = in["tip_profile"].reals(static_cast<std::size_t>(2 * bending.extension + 1));
   h.least_radius = in["least_radius"].real(1e-9, kHuge);
   h.side_gap = in["side_gap"].whole(1, 1 << 20);
   h.highest_order = in["highest_order"].whole(0, 1 << 20);
   h.most_ratio = in["most_ratio"].real(1e-3, 1e3);
   h.spacing = in["spacing"].real(kLeastStep, kHuge);
+  h.clearance = in["clearance"].real(0.0, kHuge);
+  h.opening = in["opening"].real(0.0, 1.0);
+  const std::vector<double> chord_spread = in["chord_spread"].reals(kHeadingOrders);
+  std::copy(chord_spread.begin(), chord_spread.end(), h.chord_spread.begin());
   h.total_length = in["total_length"].real(0.0, 1e15);
   h.furcation_gap = in["furcation_gap"].whole(1, 1 << 20);
   h.habitat = in["habitat"].reals(kHabitatCells * kHabitatCells);
