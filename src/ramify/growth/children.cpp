@@ -15,7 +15,7 @@ namespace {
 constexpr double kMostWidening = 1.5;    // of its radius at the start
 constexpr double kDenseStart = 0.6;      // D beyond which a child's first stretch stands in others' way
 constexpr double kTooShort = 0.35;       // of the intended length: taken back, tried elsewhere
-constexpr double kPlaceSpread = 0.18;    // of the parent's length, around the place in the template
+constexpr double kMostPlaceSpread = 0.18;  // of the parent's length, around the place in the template (PICTURES 12.2-4)
 constexpr double kOtherSide = 1.0;       // against the side the template's child leaves to: keeps the sides balanced
 constexpr double kSwapped = 0.6;         // children swapped for a similar one
 constexpr int kSimilar = 5;
@@ -167,16 +167,15 @@ ChildPlan best_plan_at(const GrowthState& state, int number, int node) {
   return best;
 }
 
-std::vector<Place> rank_places(const GrowthState& state, int number, int source, int wanted_side, Rng& rng) {
+std::vector<Place> rank_places(const GrowthState& state, int number, const WantedChild& wanted, Rng& rng) {
+  const int source = wanted.source;
   const GrowingBranch& branch = state.branches[number];
   const SourceBranch& child = state.style.hierarchy.branches[source];
-  const BendingModel& bending = state.style.bending;
-  const double place_in_template = child.parent_vertex / static_cast<double>(std::max(1, bending.length_of(child.parent) - 1));
   const double reach = std::min(0.6 * length_of_template(state, source), 4.0 * state.spacing + 40.0);
   const int last = branch.count() - 1;
   std::vector<Place> places;
   for (int node = 2; node < last - 1; ++node) {
-    const double off = (node / static_cast<double>(last) - place_in_template) / kPlaceSpread;
+    const double off = (node / static_cast<double>(last) - wanted.place) / wanted.spread;
     const double width = std::log(branch.radii[node] / parent_radius_of(state, source));
     const double common = -0.5 * off * off - 0.5 * width * width + classifier_nudge(state, branch, node);
     for (const bool mirrored : {false, true}) {
@@ -186,7 +185,7 @@ std::vector<Place> rank_places(const GrowthState& state, int number, int source,
       const double skip = branch.radii[node] + 0.6 * state.spacing;
       const double room = free_way(state, branch.points[node], direction, skip, reach);
       places.push_back({common + 2.0 * junction_likeness(state, branch, node, source, mirrored) +
-                            1.5 * std::log(0.08 + room) + 0.4 * rng.normal() - (side == wanted_side ? 0.0 : kOtherSide),
+                            1.5 * std::log(0.08 + room) + 0.4 * rng.normal() - (side == wanted.side ? 0.0 : kOtherSide),
                         node, mirrored});
     }
   }
@@ -277,6 +276,10 @@ std::vector<WantedChild> list_children(const GrowthState& state, int number, dou
   const GrowingBranch& branch = state.branches[number];
   const int own = state.style.bending.length_of(branch.source) - 1;
   const double ratio = (branch.count() - 1) / static_cast<double>(std::max(1, own));
+  const auto siblings = std::count_if(state.style.hierarchy.branches.begin(), state.style.hierarchy.branches.end(),
+                                      [&](const SourceBranch& other) { return other.parent == branch.source; });
+  // Many children stand in a row: each keeps its place in it, about a gap more or less.
+  const double spread = std::min(kMostPlaceSpread, 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, siblings)));
   std::vector<WantedChild> list;
   for (int b = 0; b < static_cast<int>(state.style.hierarchy.branches.size()); ++b) {
     if (state.style.hierarchy.branches[b].parent != branch.source) continue;
@@ -284,7 +287,8 @@ std::vector<WantedChild> list_children(const GrowthState& state, int number, dou
     const bool large = state.style.bending.length_of(b) > 0.25 * own;
     for (double expected = (large ? 1.0 : share) * std::min(ratio, 2.0); expected > 0.0; expected -= 1.0) {
       if (rng.uniform() >= expected) continue;
-      list.push_back({rng.uniform() < kSwapped ? similar_template(state, b, rng) : b, state.side_of(b, branch.mirrored)});
+      const double place = state.style.hierarchy.branches[b].parent_vertex / static_cast<double>(std::max(1, own));
+      list.push_back({rng.uniform() < kSwapped ? similar_template(state, b, rng) : b, place, spread, state.side_of(b, branch.mirrored)});
     }
   }
   std::stable_sort(list.begin(), list.end(), [&](const WantedChild& a, const WantedChild& b) {
@@ -318,7 +322,7 @@ int settle_child(GrowthState& state, int number, const WantedChild& wanted, Rng&
   std::vector<Place> tried;
   // A large child is worth a long search.
   const int tries = state.style.bending.length_of(wanted.source) > 8 * state.style.bending.extension ? 3 * kTries : kTries;
-  for (const Place& place : rank_places(state, number, wanted.source, wanted.side, rng)) {
+  for (const Place& place : rank_places(state, number, wanted, rng)) {
     const bool near = std::any_of(tried.begin(), tried.end(), [&](const Place& other) {
       return other.mirrored == place.mirrored && std::abs(other.node - place.node) < 3;
     });

@@ -22,8 +22,10 @@ struct ChildPlan {
 int place_child(GrowthState& state, const ChildPlan& plan, Rng& rng);
 
 struct WantedChild {
-  int source = 0;  // template
-  int side = 1;    // the side it leaves to in the exemplar: +1 clockwise, -1
+  int source = 0;      // template
+  double place = 0.5;  // 0..1 along the parent, where the exemplar's branch has it
+  double spread = 0.2; // of the parent's length, about the place
+  int side = 1;        // the side it leaves to in the exemplar: +1 clockwise, -1
 };
 
 // The children a branch should have, as templates, longest first: its own template's, some swapped for similar ones.

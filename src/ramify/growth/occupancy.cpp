@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ramify/geometry/segment.h"
+#include "ramify/style/hierarchy.h"
 
 namespace ramify {
 namespace {
@@ -19,7 +20,7 @@ double kept_gap(const Capsule& a, const Capsule& b) {
 // Roots that start where another does, as strokes from one cloud or vessels from one disc.
 bool share_start(const GrowingBranch& a, const GrowingBranch& b) {
   return a.parent == kNone && b.parent == kNone &&
-         (a.points.front() - b.points.front()).norm() < a.radii.front() + b.radii.front() + 4.0;
+         (a.points.front() - b.points.front()).norm() < a.radii.front() + b.radii.front() + kStartTogether;
 }
 
 bool meets_itself(const Capsule& own, const Extension& extension, std::size_t from, double step) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "ramify/growth/candidates.h"
 #include "ramify/growth/children.h"
@@ -56,12 +57,19 @@ RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tr
     const Vec2 place = on_this_canvas(state, own);
     plan.position = (place + (branch.starts_on_frame ? slide_along_frame(place, tree_jitter, size) : tree_jitter)).cwiseMax(low).cwiseMin(high);
   }
-  // The surer the exemplar's main direction, the less it is disturbed.
-  const double jitter_scale = freedom * kTurnJitter * std::clamp(2.0 * (1.0 - state.style.hierarchy.headings[0].strength), 0.25, 1.0);
+  // The surer the exemplar's main direction, the less it is disturbed. From a landmark to a tip a branch keeps its course:
+  // a new midrib must fit the old leaf.
+  const bool fits = branch.starts_on_landmark && state.target.kept && branch.end == BranchEnd::Tip;
+  const double jitter_scale = (fits ? 0.3 : 1.0) * freedom * kTurnJitter * std::clamp(2.0 * (1.0 - state.style.hierarchy.headings[0].strength), 0.25, 1.0);
   const double turn = jitter_scale * rng.normal();
   plan.direction = template_direction(state.style, source) + turn;
   plan.heading = template_heading(state.style, source) + 0.5 * turn + jitter_scale * rng.normal();
-  plan.length = template_length(state.style, source) * std::exp(0.15 * rng.normal());
+  plan.length = template_length(state.style, source) * std::exp((fits ? 0.03 : 0.15) * rng.normal());
+  // Where another root has exactly this place, this one starts beside it.
+  for (const GrowingBranch& other : state.branches) {
+    if ((other.points.front() - plan.position).norm() >= 1.0) continue;
+    plan.position += direction_of(plan.direction) * std::max(1.0, 0.7 * state.style.bending.smooth_radius[state.style.bending.first[source]]);
+  }
   return plan;
 }
 
@@ -92,6 +100,7 @@ void copy_stem(GrowthState& state, int number) {
 std::vector<int> grow_own_roots(GrowthState& state) {
   std::vector<int> grown;
   std::map<int, Vec2> tree_jitter;
+  std::set<int> settled;  // trees that have a root: what else starts there stays with it
   const Size size = state.target.size;
   for (const int source : root_templates(state.style)) {
     state.monitor.check();
@@ -102,7 +111,7 @@ std::vector<int> grow_own_roots(GrowthState& state) {
       const double freedom = static_cast<double>(kTries - 1 - attempt) / (kTries - 1);
       const double reach = freedom * kJitter;
       const Vec2 drawn(rng.uniform(-1, 1) * reach * size.width, rng.uniform(-1, 1) * reach * size.height);
-      if (attempt > 0 || !tree_jitter.contains(tree)) tree_jitter[tree] = drawn;
+      if (!settled.contains(tree)) tree_jitter[tree] = drawn;
       const RootPlan plan = plan_from_template(state, source, tree_jitter[tree], freedom, rng);
       if (!state.ground.inside(plan.position) || state.ground.blocked(plan.position)) continue;
       const int number = place_root(state, plan, rng);
@@ -111,6 +120,7 @@ std::vector<int> grow_own_roots(GrowthState& state) {
       const bool good = branch.stop != GrowthStop::Stuck || branch.arc(state.style.step) > 0.3 * branch.length;
       if (good || attempt + 1 == kTries) {
         grown.push_back(number);
+        settled.insert(tree);
         break;
       }
       state.take_back(number);

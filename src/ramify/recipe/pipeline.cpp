@@ -146,15 +146,20 @@ Mask no_habitat(const Habitat& habitat, const BackgroundPlan& plan) {
   return on_canvas(map, plan);
 }
 
-// Which nodes lie on a landmark, and which where the habitat ends. A border is met a little before it: annotations stop
-// short of a field's rim.
+// Which nodes lie on a landmark, and which where the habitat ends. A landmark is touched by a
+// branch's rim; a border is met a little before it: annotations stop short of a field's rim.
 std::vector<NodePlace> node_places(const Skeleton& skeleton, const Habitat& habitat) {
   std::vector<NodePlace> places(static_cast<std::size_t>(skeleton.count()), NodePlace::Ground);
   const ScalarImage to_border = distance_to(habitat.outside);
+  Mask landmark(habitat.role.size(), 0);
+  for (std::size_t i = 0; i < landmark.pixels().size(); ++i) {
+    if (habitat.role.pixels()[i] == static_cast<std::uint8_t>(RegionRole::Landmark)) landmark.pixels()[i] = 255;
+  }
+  const ScalarImage to_landmark = distance_to(landmark);
   constexpr double kShort = 8.0;  // px
   for (int i = 0; i < skeleton.count(); ++i) {
     const int x = static_cast<int>(std::lround(skeleton[i].xy().x())), y = static_cast<int>(std::lround(skeleton[i].xy().y()));
-    if (habitat.role.clamped(x, y) == static_cast<std::uint8_t>(RegionRole::Landmark)) {
+    if (to_landmark.clamped(x, y) <= skeleton[i].radius) {
       places[static_cast<std::size_t>(i)] = NodePlace::Landmark;
     } else if (to_border.clamped(x, y) <= skeleton[i].radius + kShort) {
       places[static_cast<std::size_t>(i)] = NodePlace::Border;

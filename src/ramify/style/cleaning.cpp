@@ -106,6 +106,11 @@ std::vector<CleanBranch> clean_branches(const Skeleton& skeleton, const std::vec
       if (!cut_at_rim(branch)) continue;
     } else if (branch.points.size() < 2) {
       continue;
+    } else {
+      for (const CleanBranch& other : branches) {
+        const double touching = other.radii.front() + branch.radii.front() + kStartTogether;
+        if (other.parent == kNone && (other.points.front() - branch.points.front()).norm() <= touching) branch.tree = other.tree;
+      }
     }
     kept[r] = static_cast<int>(branches.size());
     branches.push_back(std::move(branch));

@@ -14,6 +14,7 @@ namespace ramify {
 
 inline constexpr int kHeadingBins = 16;   // over the full circle, from -pi
 inline constexpr int kHeadingOrders = 4;  // orders beyond the last share its histogram
+inline constexpr double kStartTogether = 10.0;  // px between the rims: roots nearer to each other start from one place
 inline constexpr int kHabitatCells = 16;  // per side, of the coarse map of where branches live
 
 // What a node of the exemplar lies on. Where the habitat ends (a field's rim, a skyline) branches end as at the frame.

@@ -7,13 +7,15 @@
 #include <tuple>
 
 #include "ramify/geometry/capsule_index.h"
+#include "ramify/style/hierarchy.h"
 
 namespace ramify {
 namespace {
 
-constexpr double kTieReach = 10.0;       // px between rims (PICTURES 12.2-2)
+constexpr double kTieReach = kStartTogether;  // px between rims (PICTURES 12.2-2)
 constexpr double kLooseShare = 0.3;      // of all nodes: larger trees stay on their own
 constexpr double kSmallestShare = 0.015; // of the length
+constexpr double kClearlyBetter = 0.7;   // of a continuation over the one drawn: twice as wide, or much longer and straighter
 constexpr int kLead = 12;                // nodes over which a direction is looked at
 
 struct Trees {
@@ -39,6 +41,29 @@ Trees find_trees(const Skeleton& skeleton) {
   return trees;
 }
 
+// Trees that start from one place, as vessels from a disc do: each stays a tree of its own.
+bool start_together(const Skeleton& skeleton, int root, int other) {
+  return (skeleton[root].xy() - skeleton[other].xy()).norm() <= skeleton[root].radius + skeleton[other].radius + kTieReach;
+}
+
+bool on_frame(const Skeleton& skeleton, int node) {
+  const Vec2 p = skeleton[node].xy();
+  const double margin = std::min({p.x(), p.y(), skeleton.size.width - 1 - p.x(), skeleton.size.height - 1 - p.y()});
+  return margin <= std::max(4.0, skeleton[node].radius + 3.0);
+}
+
+// Whether a tree begins where branches do, on the frame or beside other roots: nothing else is its root.
+std::vector<bool> rooted_trees(const Skeleton& skeleton, const Trees& trees) {
+  std::vector<bool> rooted(trees.root.size());
+  for (std::size_t t = 0; t < rooted.size(); ++t) {
+    rooted[t] = on_frame(skeleton, trees.root[t]);
+    for (std::size_t other = 0; other < rooted.size() && !rooted[t]; ++other) {
+      rooted[t] = other != t && start_together(skeleton, trees.root[t], trees.root[other]);
+    }
+  }
+  return rooted;
+}
+
 struct Tie {
   double gap;  // px between the rims
   int end;     // a leaf or root of the loose tree
@@ -53,17 +78,20 @@ std::vector<Tie> find_ties(const Skeleton& skeleton, const Trees& trees, const s
     const Node& node = skeleton[i];
     index.add({node.xy(), node.xy(), node.radius, node.radius, trees.tree[i], i});
   }
+  const std::vector<bool> rooted = rooted_trees(skeleton, trees);
   std::vector<Tie> ties;
   for (int i = 0; i < skeleton.count(); ++i) {
     if (i % 1024 == 0) monitor.check();
     if (near[i].size() > 1 || trees.size[trees.tree[i]] >= kLooseShare * skeleton.count()) continue;
     if (!anchored.empty() && anchored[trees.root[trees.tree[i]]]) continue;
+    if (rooted[trees.tree[i]] || on_frame(skeleton, i)) continue;
     const Vec2 end = skeleton[i].xy();
     const double radius = skeleton[i].radius;
     const Vec2 reach = Vec2::Constant(radius + kTieReach);
     Tie best{kTieReach, i, kNone};
     index.visit_box(end - reach, end + reach, [&](int number) {
-      if (index[number].owner == trees.tree[i]) return true;
+      const int onto = index[number].place;
+      if (index[number].owner == trees.tree[i] || (near[onto].size() < 2 && on_frame(skeleton, onto))) return true;
       const double gap = (index[number].a - end).norm() - index[number].radius_a - radius;
       if (gap < best.gap || (gap == best.gap && number < best.onto)) best = {gap, i, number};
       return true;
@@ -104,7 +132,7 @@ class Walker {
       beyond_[parent_[*node]] = std::max(beyond_[parent_[*node]], beyond_[*node] + edge);
     }
     for (const int node : order) {
-      if (turned[tree[node]]) put_continuation_first(node);
+      put_continuation_first(node, turned[tree[node]] ? 0.0 : kClearlyBetter);
     }
     put_longest_first(root);
     return length;
@@ -134,7 +162,8 @@ class Walker {
     if (beyond_[children.front()] < 0.1 * beyond_[*longest]) std::rotate(children.begin(), longest, longest + 1);
   }
 
-  void put_continuation_first(int node) {
+  // margin: by how much another child must be better than the first.
+  void put_continuation_first(int node, double margin) {
     std::vector<int>& children = children_[node];
     if (children.size() < 2) return;
     int back = node;
@@ -155,7 +184,7 @@ class Walker {
     };
     const auto best = std::max_element(children.begin(), children.end(),
                                        [&](int a, int b) { return score(a) < score(b); });
-    std::rotate(children.begin(), best, best + 1);
+    if (score(*best) > score(children.front()) + margin) std::rotate(children.begin(), best, best + 1);
   }
 
   const Skeleton& skeleton_;

@@ -21,11 +21,11 @@ struct RootedGraph {
   int dropped = 0;             // trees left out
 };
 
-// A tree of less than 0.3 of the nodes whose end lies within 10 px of another tree's rim is attached there. Trees of less
-// than 1.5 % of the nodes' length that do not reach the frame are left out. In trees that are attached by another end
-// than their root, and so turned round, the continuation at a furcation is chosen by direction, width and length;
-// elsewhere it stays the child with the lowest index. Trees rooted at a node for which `anchored` is true are at home and
-// never loose, however near others come; one entry per node, or none.
+// A tree of less than 0.3 of the nodes whose end lies within 10 px of another tree's rim is attached there, unless it is at
+// home where it begins: on the frame, beside another root, or at a node for which `anchored` is true (one entry per node, or
+// none). Trees of less than 1.5 % of the nodes' length that do not reach the frame are left out. In trees that are attached
+// by another end than their root, and so turned round, the continuation at a furcation is chosen by direction, width and
+// length; elsewhere it stays the child with the lowest index unless another goes on clearly wider, longer and straighter.
 RootedGraph tie_loose_trees(const Skeleton& skeleton, const std::vector<bool>& anchored, const Monitor& monitor);
 
 }  // namespace ramify
