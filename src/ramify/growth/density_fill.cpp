@@ -15,6 +15,7 @@ constexpr int kLooks = 8;            // unfilled cells of which the farthest is 
 constexpr int kMostTries = 4000;
 constexpr int kMostFailures = 40;
 constexpr int kMostBans = 2;
+constexpr double kMostForks = 1.1;   // times the exemplar's, after which length is no reason for more branches
 
 class Filler {
  public:
@@ -24,7 +25,7 @@ class Filler {
     int failures = 0;
     for (int round = 0; round < kMostTries && failures < kMostFailures; ++round) {
       state_.monitor.check();
-      if (state_.full()) return;
+      if (state_.full() || state_.forks() > kMostForks * state_.wanted_forks()) return;
       Rng rng = state_.rng.child("grow.fill", static_cast<std::uint64_t>(round));
       const int cell = pick_cell(rng);
       if (cell == kNone) return;

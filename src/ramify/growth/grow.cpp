@@ -2,6 +2,7 @@
 #include "ramify/growth/grow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 
 #include "ramify/growth/children.h"
@@ -44,6 +45,31 @@ void grow_children(GrowthState& state, const std::vector<int>& roots, int most_o
     const int child = settle_child(state, job.parent, job.child, rng);
     if (child != kNone) plan_children(child);
     state.monitor.report(std::min(0.9, 0.9 * state.grown_length / state.wanted_length));
+  }
+}
+
+// What was stunted or found no place leaves forks missing. The exemplar's shortest children find room for themselves.
+void add_twigs(GrowthState& state, int most_order) {
+  constexpr double kShort = 0.5;  // of the children, by length
+  const Style& style = state.style;
+  std::vector<int> twigs;
+  for (int b = 0; b < style.bending.branch_count(); ++b) {
+    if (style.hierarchy.branches[b].parent != kNone) twigs.push_back(b);
+  }
+  std::stable_sort(twigs.begin(), twigs.end(), [&](int a, int b) { return style.bending.length_of(a) < style.bending.length_of(b); });
+  twigs.resize(static_cast<std::size_t>(std::ceil(kShort * static_cast<double>(twigs.size()))));
+  if (twigs.empty()) return;
+  const int missing = static_cast<int>(state.wanted_forks()) - state.forks();
+  Rng rng = state.rng.child("grow.twigs");
+  for (int i = 0, left = missing; i < 4 * missing && left > 0; ++i) {
+    state.monitor.check();
+    // Longer branches carry more.
+    std::vector<double> weights;
+    for (const GrowingBranch& branch : state.branches) weights.push_back(branch.order < most_order ? branch.count() : 0.0);
+    const int parent = rng.discrete(weights);
+    const int source = twigs[static_cast<std::size_t>(rng.below(static_cast<int>(twigs.size())))];
+    const WantedChild twig{source, rng.uniform(), 0.2, rng.uniform() < 0.5 ? 1 : -1};
+    if (settle_child(state, parent, twig, rng) != kNone) --left;
   }
 }
 
@@ -109,6 +135,7 @@ Skeleton grow_from_style(const Style& style, const GrowthTarget& target, const G
   } else {
     grow_children(state, roots, most_order);
     if (most_order > 0) fill_wanted(state, most_order);
+    if (most_order > 0 && !state.ground.painted()) add_twigs(state, most_order);
   }
   monitor.report(1.0);
   if (state.branches.empty()) {

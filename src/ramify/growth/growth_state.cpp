@@ -83,6 +83,16 @@ int GrowthState::start(const GrowingBranch& branch) {
   return number;
 }
 
+int GrowthState::forks() const {
+  return static_cast<int>(std::count_if(branches.begin(), branches.end(), [](const GrowingBranch& b) { return b.parent != kNone; }));
+}
+
+double GrowthState::wanted_forks() const {
+  const auto& learnt = style.hierarchy.branches;
+  const auto children = std::count_if(learnt.begin(), learnt.end(), [](const SourceBranch& b) { return b.parent != kNone; });
+  return static_cast<double>(children) * grown_length / style.hierarchy.total_length;
+}
+
 int GrowthState::side_of(int source, bool mirrored) const {
   return (style.hierarchy.branches[source].start_angle > 0.0) != mirrored ? 1 : -1;
 }

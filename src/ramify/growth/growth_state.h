@@ -34,6 +34,8 @@ struct GrowthState {
   // Px a branch has come along the course it follows.
   double progress(const GrowingBranch& branch) const;
   bool full() const { return grown_length >= wanted_length; }
+  int forks() const;
+  double wanted_forks() const;  // for what has grown, at the exemplar's rate
 
   const Style& style;
   const GrowthTarget& target;

@@ -222,6 +222,10 @@ int place_root(GrowthState& state, const RootPlan& plan, Rng& rng) {
   const Extension lead = lead_in(state, root);
   root.points.front() -= direction_of(root.start_direction) * (static_cast<double>(lead.points.size()) * state.style.step);
   const int number = state.start(root);
+  if (state.occupancy.meet(state.branches, number, lead, true).blocked) {
+    state.take_back(number);
+    return kNone;
+  }
   state.commit(number, lead);
   if (state.options.copy_stem && state.branches.size() == 1) copy_stem(state, number);
   if (plan.followed == kNone) aim_at_frame(state, state.branches[number]);

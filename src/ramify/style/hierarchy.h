@@ -58,8 +58,8 @@ struct Hierarchy {
   int side_gap = 1;                    // vertices: 10 % of the gaps between furcations to the same side are shorter
   int highest_order = 0;
   double spacing = 32.0;               // px, rho: median distance to the nearest branch midway between branches
-  double clearance = 1.0;              // px between the rims of unrelated branches that 95 % of the vertices keep
-  double opening = 0.2;                // a child's distance from its parent's rim over its arc that 90 % exceed
+  double clearance = 1.0;              // px between the rims of unrelated branches; 95 % of the vertices keep more
+  double opening = 0.2;                // a child's distance from its parent's rim over its arc; 90 % have more
   std::array<double, kHeadingOrders> chord_spread{};  // rad: of the angle between a child's chord and its parent, by order
   double total_length = 0.0;           // px
   int furcation_gap = 1;               // vertices: 5 % of the gaps between furcations are shorter

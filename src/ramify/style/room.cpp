@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kKeepClear = 0.05;     // of the vertices are nearer to a stranger than the clearance
 constexpr double kOpensSlower = 0.1;    // of the places along children open more slowly than `opening`
+constexpr double kSlack = 0.85;         // of what was measured is asked for
 constexpr double kLeastSpread = 0.15;   // rad
 constexpr double kMostSpread = 0.8;     // rad (PICTURES 12.2-5)
 
@@ -50,7 +51,7 @@ double measure_clearance(const Hierarchy& hierarchy, const BendingModel& bending
       gaps.push_back(rim - bending.radius[i]);
     }
   }
-  return gaps.empty() ? 1.0 : std::clamp(lower(gaps, kKeepClear), 0.0, hierarchy.spacing);
+  return gaps.empty() ? 1.0 : std::clamp(kSlack * lower(gaps, kKeepClear), 0.0, 0.5 * hierarchy.spacing);
 }
 
 // Distance from the parent's rim over the arc, beyond what the parent's width hides.
@@ -68,7 +69,7 @@ double measure_opening(const Hierarchy& hierarchy, const BendingModel& bending, 
       slopes.push_back((gap - bending.radius[i]) / arc);
     }
   }
-  return slopes.empty() ? 0.2 : std::clamp(lower(slopes, kOpensSlower), 0.0, 0.9);
+  return slopes.empty() ? 0.2 : std::clamp(kSlack * lower(slopes, kOpensSlower), 0.0, 0.5);
 }
 
 // Circular deviation of the angle from the parent's direction to a child's chord, sides folded together.

@@ -16,7 +16,7 @@ constexpr double kTieReach = kStartTogether;  // px between rims (PICTURES 12.2-
 constexpr double kLooseShare = 0.3;      // of all nodes: larger trees stay on their own
 constexpr double kSmallestShare = 0.015; // of the length
 constexpr double kClearlyBetter = 0.7;   // of a continuation over the one drawn: twice as wide, or much longer and straighter
-constexpr int kLead = 12;                // nodes over which a direction is looked at
+constexpr std::size_t kLead = 12;                // nodes over which a direction is looked at
 
 struct Trees {
   std::vector<int> tree;  // per node
@@ -147,7 +147,12 @@ class Walker {
       for (std::size_t i = 0; i < run.nodes.size(); ++i) {
         const std::vector<int>& children = children_[run.nodes[i]];
         for (std::size_t c = 1; c < children.size(); ++c) open.push_back({{children[c]}, number, run.nodes[i]});
-        if (!children.empty()) run.nodes.push_back(children.front());
+        if (children.empty()) continue;
+        if (i >= kLead && leaves_here(run.nodes[i], children.front())) {
+          open.push_back({{children.front()}, kNone, kNone});
+        } else {
+          run.nodes.push_back(children.front());
+        }
       }
       runs.push_back(std::move(run));
     }
@@ -167,12 +172,12 @@ class Walker {
     std::vector<int>& children = children_[node];
     if (children.size() < 2) return;
     int back = node;
-    for (int i = 0; i < kLead && parent_[back] != kNone; ++i) back = parent_[back];
+    for (std::size_t i = 0; i < kLead && parent_[back] != kNone; ++i) back = parent_[back];
     const Vec2 arriving = (skeleton_[node].xy() - skeleton_[back].xy()).stableNormalized();
     const auto score = [&](int child) {
       int ahead = child;
       double widths = std::log(skeleton_[child].radius + 0.3);
-      int count = 1;
+      std::size_t count = 1;
       while (count < kLead && !children_[ahead].empty()) {
         ahead = *std::max_element(children_[ahead].begin(), children_[ahead].end(),
                                   [&](int a, int b) { return beyond_[a] < beyond_[b]; });
@@ -180,11 +185,26 @@ class Walker {
         ++count;
       }
       const Vec2 leaving = (skeleton_[ahead].xy() - skeleton_[node].xy()).stableNormalized();
-      return arriving.dot(leaving) + widths / count + 0.35 * std::log(beyond_[child] + 5.0);
+      return arriving.dot(leaving) + widths / static_cast<double>(count) + 0.35 * std::log(beyond_[child] + 5.0);
     };
     const auto best = std::max_element(children.begin(), children.end(),
                                        [&](int a, int b) { return score(a) < score(b); });
     if (score(*best) > score(children.front()) + margin) std::rotate(children.begin(), best, best + 1);
+  }
+
+  // Whether a branch leaves the picture at this node: what goes on from there is much thinner, and another.
+  bool leaves_here(int node, int next) const {
+    constexpr double kOnEdge = 3.0, kThinner = 0.6;
+    const Vec2 p = skeleton_[node].xy();
+    if (std::min({p.x(), p.y(), skeleton_.size.width - 1 - p.x(), skeleton_.size.height - 1 - p.y()}) > kOnEdge) return false;
+    double widths = 0.0;
+    int count = 0;
+    for (; count < static_cast<int>(kLead); ++count) {
+      widths += skeleton_[next].radius;
+      if (children_[next].empty()) break;
+      next = children_[next].front();
+    }
+    return widths / std::max(1, count) < kThinner * skeleton_[node].radius;
   }
 
   const Skeleton& skeleton_;
