@@ -50,7 +50,8 @@ void grow_children(GrowthState& state, const std::vector<int>& roots, int most_o
 
 // What was stunted or found no place leaves forks missing. The exemplar's shortest children find room for themselves.
 void add_twigs(GrowthState& state, int most_order) {
-  constexpr double kShort = 0.5;  // of the children, by length
+  constexpr double kShort = 0.5;       // of the children, by length
+  constexpr double kMostLength = 1.05; // of the wanted
   const Style& style = state.style;
   std::vector<int> twigs;
   for (int b = 0; b < style.bending.branch_count(); ++b) {
@@ -61,7 +62,7 @@ void add_twigs(GrowthState& state, int most_order) {
   if (twigs.empty()) return;
   const int missing = static_cast<int>(state.wanted_forks()) - state.forks();
   Rng rng = state.rng.child("grow.twigs");
-  for (int i = 0, left = missing; i < 4 * missing && left > 0; ++i) {
+  for (int i = 0, left = missing; i < 4 * missing && left > 0 && state.grown_length < kMostLength * state.wanted_length; ++i) {
     state.monitor.check();
     // Longer branches carry more.
     std::vector<double> weights;

@@ -148,7 +148,7 @@ class Walker {
         const std::vector<int>& children = children_[run.nodes[i]];
         for (std::size_t c = 1; c < children.size(); ++c) open.push_back({{children[c]}, number, run.nodes[i]});
         if (children.empty()) continue;
-        if (i >= kLead && leaves_here(run.nodes[i], children.front())) {
+        if (i >= kLead && (leaves_here(run.nodes[i], children.front()) || turns_back(run.nodes[i], run.nodes[i - kLead]))) {
           open.push_back({{children.front()}, kNone, kNone});
         } else {
           run.nodes.push_back(children.front());
@@ -205,6 +205,18 @@ class Walker {
       next = children_[next].front();
     }
     return widths / std::max(1, count) < kThinner * skeleton_[node].radius;
+  }
+
+  // Whether a branch that has come to the frame doubles back: traced twice in wide water, or another branch that enters.
+  bool turns_back(int node, int before) const {
+    constexpr double kNearFrame = 12.0, kBack = -0.5;
+    const Vec2 p = skeleton_[node].xy();
+    const double margin = std::min({p.x(), p.y(), skeleton_.size.width - 1 - p.x(), skeleton_.size.height - 1 - p.y()});
+    if (margin > kNearFrame) return false;
+    int ahead = node;
+    for (std::size_t i = 0; i < kLead && !children_[ahead].empty(); ++i) ahead = children_[ahead].front();
+    const Vec2 arriving = (p - skeleton_[before].xy()).stableNormalized();
+    return arriving.dot((skeleton_[ahead].xy() - p).stableNormalized()) < kBack;
   }
 
   const Skeleton& skeleton_;

@@ -26,7 +26,7 @@ struct RootedGraph {
 // none). Trees of less than 1.5 % of the nodes' length that do not reach the frame are left out. In trees that are attached
 // by another end than their root, and so turned round, the continuation at a furcation is chosen by direction, width and
 // length; elsewhere it stays the child with the lowest index unless another goes on clearly wider, longer and straighter.
-// A branch that leaves the picture ends there: what goes on much thinner is a root.
+// A branch that leaves the picture ends there: what goes on much thinner, or turns back, is a root.
 RootedGraph tie_loose_trees(const Skeleton& skeleton, const std::vector<bool>& anchored, const Monitor& monitor);
 
 }  // namespace ramify
