@@ -16,6 +16,7 @@ constexpr double kLargestShare = 0.4;  // of the picture: thicker classes are ba
 constexpr double kLongest = 10.0;      // smallest area of a thick branch over its largest radius squared (a disc has 3.1)
 constexpr double kBankReach = 3.0;    // px to both sides of a rim
 constexpr double kBankShare = 0.45;   // of the contrast lies within these
+constexpr double kApart = 2.65;       // contrast over the spread of the rest: that of the halves of a normal distribution
 constexpr double kLowShare = 0.35;    // and goes on at this share of it (ALGORITHMS 3.3-3)
 
 double median_positive(const ScalarImage& image, const Mask& excluded) {
@@ -103,25 +104,33 @@ Mask without_blobs(const Mask& mask) {
   return out;
 }
 
-// Components with banks: across their rim the picture changes by a good part of what tells them from the rest. The rim of
-// a bright cloud is only where a slow change passes the threshold.
-Mask with_banks(const Mask& mask, const ScalarImage& picture, const Mask& excluded) {
+struct ToneSum {
+  double n = 0.0, sum = 0.0, square = 0.0;
+
+  void add(double v) { n += 1.0, sum += v, square += v * v; }
+  double mean() const { return sum / std::max(n, 1.0); }
+  double variance() const { return std::max(0.0, square / std::max(n, 1.0) - mean() * mean()); }
+};
+
+// Components with a tone of their own and with banks. Otsu cuts any picture in two: the stains of a wall are the darker half
+// of its texture, and no further from the rest than one half of a normal distribution is from the other. The rim of a bright
+// cloud is only where a slow change passes the threshold: across real banks the picture changes by a good part of what tells
+// the component from the rest.
+Mask standing_out(const Mask& mask, const ScalarImage& picture, const Mask& excluded, double apart) {
   int count = 0;
   const LabelImage label = label_components(mask, true, count);
   const Gradient inward = gradient(gaussian_blur(distance_inside(mask), 1.0));
-  std::vector<double> inside(static_cast<std::size_t>(count), 0.0), area(inside), step(inside), rim(inside);
-  double beyond = 0.0, rest = 0.0;
+  std::vector<ToneSum> inside(static_cast<std::size_t>(count));
+  std::vector<double> step(inside.size(), 0.0), rim(step);
+  ToneSum rest;
   for (int y = 0; y < mask.height(); ++y) {
     for (int x = 0; x < mask.width(); ++x) {
       const int k = label(x, y);
       if (k == kNone) {
-        if (!excluded.empty() && excluded(x, y)) continue;
-        beyond += picture(x, y);
-        rest += 1.0;
+        if (excluded.empty() || !excluded(x, y)) rest.add(picture(x, y));
         continue;
       }
-      inside[k] += picture(x, y);
-      area[k] += 1.0;
+      inside[k].add(picture(x, y));
       const Vec2 way(inward.dx(x, y), inward.dy(x, y));
       const bool on_rim = !mask.clamped(x - 1, y) || !mask.clamped(x + 1, y) || !mask.clamped(x, y - 1) || !mask.clamped(x, y + 1);
       if (!on_rim || way.norm() < 1e-3) continue;
@@ -136,14 +145,15 @@ Mask with_banks(const Mask& mask, const ScalarImage& picture, const Mask& exclud
   for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
     const int k = label.pixels()[i];
     if (k == kNone || rim[k] == 0.0) continue;
-    const double contrast = inside[k] / area[k] - beyond / std::max(rest, 1.0);
-    if (step[k] / rim[k] / contrast >= kBankShare) out.pixels()[i] = 255;
+    const double contrast = inside[k].mean() - rest.mean();
+    const bool own_tone = std::abs(contrast) >= apart * std::sqrt(rest.variance());
+    if (own_tone && step[k] / rim[k] / contrast >= kBankShare) out.pixels()[i] = 255;
   }
   return out;
 }
 
 // Two classes by Otsu; of them the part that is thicker than `core` px, regrown within the class.
-Mask thick_branches(const ScalarImage& picture, bool bright, double core, const Mask& excluded) {
+Mask thick_branches(const ScalarImage& picture, bool bright, double core, const Mask& excluded, double apart) {
   const float cut = otsu_threshold(picture, excluded);
   Mask mask(picture.size());
   for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
@@ -157,7 +167,7 @@ Mask thick_branches(const ScalarImage& picture, bool bright, double core, const 
   for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
     opened.pixels()[i] = opened.pixels()[i] && mask.pixels()[i] ? 255 : 0;
   }
-  return with_banks(without_blobs(opened), picture, excluded);
+  return standing_out(without_blobs(opened), picture, excluded, apart);
 }
 
 }  // namespace
@@ -177,10 +187,11 @@ RidgeEvidence gather_evidence(const ColorImage& photo, const Mask& excluded, con
   e.field = ridge_field(flatten ? flattened(e.picture, 4.0 * options.max_radius) : e.picture, ridge, monitor);
   e.high = std::max((e.glow ? kGlowFactor : kNoiseFactor) * median_positive(e.field.strength, excluded), 1e-3) / options.sensitivity;
   e.low = kLowShare * e.high;
+  const bool areas_wanted = options.mode == TraceMode::Area;  // two classes, says the user
   e.thick = options.mode == TraceMode::Ridge
                 ? Mask(photo.size())
-                : thick_branches(e.picture, e.bright,
-                                 options.mode == TraceMode::Area ? options.min_radius : 0.8 * options.max_radius, excluded);
+                : thick_branches(e.picture, e.bright, areas_wanted ? options.min_radius : 0.8 * options.max_radius,
+                                 excluded, areas_wanted ? 0.0 : kApart);
   monitor.check();
   e.radius = distance_inside(e.thick);
   for (std::size_t i = 0; i < e.radius.pixels().size(); ++i) {
