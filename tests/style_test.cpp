@@ -163,6 +163,16 @@ TEST_CASE("a style of the first days reads without its landmarks and a newer one
   }
   REQUIRE(old.size() < text.size());
   CHECK(style_text(parse_style(old, "old.json")) == text);  // the tree has no landmark
+  std::string earlier = text;
+  for (const std::string key : {"clearance", "opening", "chord_spread", "lag_chord"}) {
+    const std::size_t at = earlier.find("\"" + key + "\":");
+    REQUIRE(at != std::string::npos);
+    earlier.replace(at + 1, key.size(), "forgotten_" + key);
+  }
+  const Style read = parse_style(earlier, "earlier.json");
+  CHECK(read.hierarchy.clearance == Hierarchy().clearance);
+  CHECK(read.hierarchy.lag_chord == std::vector<double>(read.hierarchy.lags.size(), 0.0));
+  CHECK(read.hierarchy.chord_spread[0] == Approx(kPi));
   std::string newer = text;
   newer.replace(newer.find("\"version\": 1"), 12, "\"version\": 2");
   CHECK_THROWS_WITH(parse_style(newer, "new.json"), Catch::Contains("newer ramify") && Catch::Contains("version 2"));

@@ -33,7 +33,7 @@ Side exemplar_side(const std::string& path, const LoadLimits& limits, const Moni
 Side picture_side(const std::string& path, const ComparisonRequest& request, const Monitor& monitor) {
   const LoadLimits& limits = request.limits;
   const Recipe recipe = load_recipe(path, limits);
-  std::vector<std::string> folders{fs::path(path).parent_path().string()};
+  std::vector<std::string> folders{fs::path(path).parent_path().string(), fs::path(request.first).parent_path().string()};
   folders.insert(folders.end(), request.inputs.begin(), request.inputs.end());
   const LoadedRequest loaded = load_recipe_request(recipe, folders, limits, monitor.stage("load", 0.0, 0.3));
   Picture picture = make_picture(loaded, recipe.seed, monitor.stage("make again", 0.3, 1.0));

@@ -18,7 +18,7 @@ struct ComparisonRequest {
 };
 
 // The bytes of the report `path` names by its ending (.html .svg .json). A picture's skeleton is grown again from its
-// recipe, which must find its inputs. Throws InputError.
+// recipe, whose inputs are looked for beside it, beside `first` and in `inputs`. Throws InputError.
 std::string comparison_text(const ComparisonRequest& request, const std::string& path, const Monitor& monitor);
 
 }  // namespace ramify

@@ -251,17 +251,21 @@ Hierarchy read_hierarchy(const Reader& in, const BendingModel& bending) {
   h.ray_headings = read_headings(in["ray_headings"]);
   h.lags = in["lags"].wholes(1, 1 << 20);
   h.lag_turn = in["lag_turn"].reals(h.lags.size());
-  h.lag_chord = in["lag_chord"].reals(h.lags.size());
+  h.lag_chord = in.has("lag_chord") ? in["lag_chord"].reals(h.lags.size()) : std::vector<double>(h.lags.size(), 0.0);
   h.tip_profile = in["tip_profile"].reals(static_cast<std::size_t>(2 * bending.extension + 1));
   h.least_radius = in["least_radius"].real(1e-9, kHuge);
   h.side_gap = in["side_gap"].whole(1, 1 << 20);
   h.highest_order = in["highest_order"].whole(0, 1 << 20);
   h.most_ratio = in["most_ratio"].real(1e-3, 1e3);
   h.spacing = in["spacing"].real(kLeastStep, kHuge);
-  h.clearance = in["clearance"].real(0.0, kHuge);
-  h.opening = in["opening"].real(0.0, 1.0);
-  const std::vector<double> chord_spread = in["chord_spread"].reals(kHeadingOrders);
-  std::copy(chord_spread.begin(), chord_spread.end(), h.chord_spread.begin());
+  if (in.has("clearance")) {  // styles of the first days know nothing of the room between branches
+    h.clearance = in["clearance"].real(0.0, kHuge);
+    h.opening = in["opening"].real(0.0, 1.0);
+    const std::vector<double> chord_spread = in["chord_spread"].reals(kHeadingOrders);
+    std::copy(chord_spread.begin(), chord_spread.end(), h.chord_spread.begin());
+  } else {
+    h.chord_spread.fill(kPi);
+  }
   h.total_length = in["total_length"].real(0.0, 1e15);
   h.furcation_gap = in["furcation_gap"].whole(1, 1 << 20);
   h.habitat = in["habitat"].reals(kHabitatCells * kHabitatCells);
