@@ -159,7 +159,7 @@ TEST_CASE("dendrite: lightning ends at the bottom and forks downwards; moss stan
   DendriteTarget target = random_target(120, 6);
   target.generators = {target.lattice.node(60, 0)};
   DendriteOptions options;
-  options.placement = Placement::Lightning;
+  options.placement = EndpointPlacement::Lightning;
   options.endpoints = 3;
   options.branching = 8.0;
   options.rounds = 2;
@@ -170,7 +170,7 @@ TEST_CASE("dendrite: lightning ends at the bottom and forks downwards; moss stan
 
   target.generators.clear();
   for (int x = 0; x < 120; ++x) target.generators.push_back(target.lattice.node(x, 119));
-  options.placement = Placement::Moss;
+  options.placement = EndpointPlacement::Moss;
   options.endpoints = 80;
   options.distance = 30.0;
   options.spacing = 2.0;

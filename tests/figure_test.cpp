@@ -91,7 +91,7 @@ TEST_CASE("every cell of 200 mazes is reached and nothing is drawn outside") {
     FigureOptions options;
     options.lines = seed % 5 == 0 ? FigureLines::Straight : FigureLines::Curved;
     options.tree = static_cast<FigureTree>(seed % 4);
-    const Figure figure = grow_figure(maze(seed), options, Rng(seed), Monitor());
+    const FilledFigure figure = grow_figure(maze(seed), options, Rng(seed), Monitor());
     CHECK(figure.reached == static_cast<int>(figure.sites.size()));
     const Mask allowed = with_rim(figure.region);
     CHECK(painted_outside(allowed, draw_branch_mask(figure.skeleton, figure.region.size()), 0) == 0);
@@ -111,7 +111,7 @@ TEST_CASE("one tree grows in every part and roots stand where they were asked fo
   for (const char* start : {"bottom", "top"}) {
     FigureOptions options;
     options.start = start;
-    const Figure figure = grow_figure(mask, options, Rng(2), Monitor());
+    const FilledFigure figure = grow_figure(mask, options, Rng(2), Monitor());
     CHECK(figure.islands == 2);
     int roots = 0;
     for (const Node& node : figure.skeleton.nodes()) {
@@ -123,7 +123,7 @@ TEST_CASE("one tree grows in every part and roots stand where they were asked fo
   }
   FigureOptions joined;
   joined.join = FigureJoin::Bridges;
-  const Figure figure = grow_figure(mask, joined, Rng(2), Monitor());
+  const FilledFigure figure = grow_figure(mask, joined, Rng(2), Monitor());
   CHECK(figure.islands == 1);
   CHECK(figure.reached == static_cast<int>(figure.sites.size()));
   int count = 0;
@@ -136,7 +136,7 @@ TEST_CASE("the steps tree has the fewest steps and every tree spans") {
     FigureOptions options;
     options.tree = kind;
     options.points = 300;
-    const Figure figure = grow_figure(ring(160), options, Rng(4), Monitor());
+    const FilledFigure figure = grow_figure(ring(160), options, Rng(4), Monitor());
     const int n = static_cast<int>(figure.sites.size());
     std::vector<std::set<int>> neighbours(static_cast<std::size_t>(n));
     for (int y = 0; y < 160; ++y) {
@@ -172,7 +172,7 @@ TEST_CASE("the steps tree has the fewest steps and every tree spans") {
 TEST_CASE("lines hardly swell away from the root and add up where they meet") {
   FigureOptions options;
   options.points = 400;
-  const Figure figure = grow_figure(ring(240), options, Rng(1), Monitor());
+  const FilledFigure figure = grow_figure(ring(240), options, Rng(1), Monitor());
   double root = 0.0, twig = 1e9;
   for (const Node& node : figure.skeleton.nodes()) {
     if (node.parent == kNone) root = node.radius;
@@ -187,7 +187,7 @@ TEST_CASE("Lloyd spreads the points evenly") {
     FigureOptions options;
     options.points = 200;
     options.evenness = evenness;
-    const Figure figure = grow_figure(ring(200), options, Rng(3), Monitor());
+    const FilledFigure figure = grow_figure(ring(200), options, Rng(3), Monitor());
     std::vector<int> area(figure.sites.size(), 0);
     for (const std::int32_t cell : figure.cell.pixels()) {
       if (cell != kNone) ++area[cell];
@@ -206,7 +206,7 @@ TEST_CASE("the paper's cells fill a wide shape too") {
   FigureOptions options;
   options.cells = FigureCellKind::Euclidean;
   options.points = 250;
-  const Figure figure = grow_figure(ring(200), options, Rng(5), Monitor());
+  const FilledFigure figure = grow_figure(ring(200), options, Rng(5), Monitor());
   CHECK(figure.reached == static_cast<int>(figure.sites.size()));
   int inside = 0;  // of the lines' middles: nothing holds their width back here
   for (const Node& node : figure.skeleton.nodes()) {
@@ -249,7 +249,7 @@ TEST_CASE("shapes without room are refused or filled as far as they go") {
     }
   }
   const Monitor monitor([](double, const std::string&) {});
-  const Figure figure = grow_figure(many, {}, Rng(1), monitor);
+  const FilledFigure figure = grow_figure(many, {}, Rng(1), monitor);
   CHECK(figure.islands == islands - (islands + 2) / 3);
   CHECK(figure.reached == static_cast<int>(figure.sites.size()));
   REQUIRE(monitor.notes().size() == 1);
@@ -260,7 +260,7 @@ TEST_CASE("shapes without room are refused or filled as far as they go") {
 }
 
 TEST_CASE("the same seed gives the same tree") {
-  const Figure a = grow_figure(ring(100), {}, Rng(1), Monitor()), b = grow_figure(ring(100), {}, Rng(1), Monitor()),
+  const FilledFigure a = grow_figure(ring(100), {}, Rng(1), Monitor()), b = grow_figure(ring(100), {}, Rng(1), Monitor()),
                c = grow_figure(ring(100), {}, Rng(2), Monitor());
   REQUIRE(a.skeleton.count() == b.skeleton.count());
   bool same = true;

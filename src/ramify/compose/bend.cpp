@@ -20,7 +20,7 @@ constexpr JacobianRange kAllowed{0.4, 2.5};
 struct Rows {
   std::vector<Vec2> canvas, difference;
 
-  void add(const Candidate& candidate, double radius, const Vec2& canvas_offset, const Vec2& photo) {
+  void add(const SourceCandidate& candidate, double radius, const Vec2& canvas_offset, const Vec2& photo) {
     if (canvas_offset.norm() > kReach * radius) return;
     for (const Vec2& other : canvas) {
       if ((other - canvas_offset).norm() < 0.02 * radius) return;
@@ -30,7 +30,7 @@ struct Rows {
   }
 };
 
-Rows constraint_rows(const Fragment& source, const Fragment& target, const Candidate& candidate) {
+Rows constraint_rows(const Fragment& source, const Fragment& target, const SourceCandidate& candidate) {
   Rows rows;
   for (std::size_t l = 0; l < target.shape.size(); ++l) {
     const ShapeSample &s = source.shape[paired_sample(source, candidate.mirrored, l)], &t = target.shape[l];
@@ -53,7 +53,7 @@ Rows constraint_rows(const Fragment& source, const Fragment& target, const Candi
 
 // The centre line alone, as paper 002 has it.
 std::vector<Vec2> paper_displacements(const WarpGrid& warp, const Fragment& source, const Fragment& target,
-                                      const Candidate& candidate) {
+                                      const SourceCandidate& candidate) {
   std::vector<Vec2> places, differences;
   for (std::size_t l = 0; l < target.shape.size(); ++l) {
     const Vec2& offset = target.shape[l].offset;
@@ -66,7 +66,7 @@ std::vector<Vec2> paper_displacements(const WarpGrid& warp, const Fragment& sour
 
 }  // namespace
 
-WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const Candidate& candidate,
+WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const SourceCandidate& candidate,
                        const PlacementOptions& options) {
   const double reach = target.radius + kMargin;
   WarpGrid warp;

@@ -8,7 +8,7 @@ namespace ramify {
 
 // Rigid map plus a thin plate through three rows (centre line and both edges, so that widths match too), held by eight
 // anchors around the disc and damped where it would fold (PICTURES 12.1-5, ALGORITHMS 5.5); or as the options say.
-WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const Candidate& candidate,
+WarpGrid bend_fragment(const Fragment& source, const Fragment& target, const SourceCandidate& candidate,
                        const PlacementOptions& options);
 
 }  // namespace ramify

@@ -20,8 +20,8 @@ constexpr int kDiscGrid = 9;                  // disagreement is sampled on 19 x
 
 Vec2 mirrored(const Vec2& v, bool mirror) { return mirror ? Vec2(-v.x(), v.y()) : v; }
 
-Shape shape_of(const Fragment& f, bool mirror) {
-  Shape shape;
+BranchShape shape_of(const Fragment& f, bool mirror) {
+  BranchShape shape;
   shape.count = f.shape.size();
   for (std::size_t l = 0; l < shape.count; ++l) {
     const ShapeSample& sample = f.shape[paired_sample(f, mirror, l)];
@@ -38,8 +38,8 @@ double scale_for(const Fragment& source, const Fragment& target) {
 }
 
 // Equation 1 of paper 002 per sample, in units of the disc radius. omega_S: 2 in the paper.
-Candidate compare_shapes(const Shape& source, const Shape& target, double scale, double radius, double omega) {
-  Candidate candidate;
+SourceCandidate compare_shapes(const BranchShape& source, const BranchShape& target, double scale, double radius, double omega) {
+  SourceCandidate candidate;
   candidate.scale = scale;
   std::array<Vec2, 17> scaled;
   for (std::size_t l = 0; l < source.count; ++l) scaled[l] = scale * source.points[l];
@@ -76,7 +76,7 @@ bool same_kind(const Fragment& source, const Fragment& target, bool any_end) {
 }
 
 // Cost of a source apart from its shape: another scale of grain, faintness.
-double fitness_cost(const CandidateContext& context, const Candidate& c) {
+double fitness_cost(const CandidateContext& context, const SourceCandidate& c) {
   const double faint = context.shapes[c.source].faintness, log_scale = c.scale == 1.0 ? 0.0 : std::log(c.scale);
   return 0.2 * log_scale * log_scale + context.options.contrast_weight * faint * faint;
 }
@@ -111,17 +111,17 @@ std::vector<int> comparable_sources(const CandidateContext& context, const Fragm
   return {};
 }
 
-std::vector<Candidate> match_shapes(const CandidateContext& context, const Fragment& target, int target_index, bool any_end) {
+std::vector<SourceCandidate> match_shapes(const CandidateContext& context, const Fragment& target, int target_index, bool any_end) {
   const PlacementOptions& options = context.options;
   const bool may_mirror = options.mirror && !is_shaded(context.library);
   const double omega = options.paper_greedy ? 2.0 : 1.0;
-  const Shape wanted = shape_of(target, false);
-  std::vector<Candidate> found;
+  const BranchShape wanted = shape_of(target, false);
+  std::vector<SourceCandidate> found;
   for (const int j : comparable_sources(context, target, target_index, any_end)) {
     const double scale = scale_for(context.library.fragments[j], target);
     for (int mirror = 0; mirror <= (may_mirror ? 1 : 0); ++mirror) {
-      const Shape& shape = mirror ? context.shapes[j].mirrored : context.shapes[j].straight;
-      Candidate c = compare_shapes(shape, wanted, scale, target.radius, omega);
+      const BranchShape& shape = mirror ? context.shapes[j].mirrored : context.shapes[j].straight;
+      SourceCandidate c = compare_shapes(shape, wanted, scale, target.radius, omega);
       c.source = j;
       c.mirrored = mirror;
       c.cost = c.shape + (options.paper_greedy ? 0.0 : fitness_cost(context, c));
@@ -133,22 +133,22 @@ std::vector<Candidate> match_shapes(const CandidateContext& context, const Fragm
 
 // Light from one side betrays what was turned. The limit gives way step by step where the photo has too little that lies
 // as the target does.
-void keep_upright(std::vector<Candidate>& candidates) {
+void keep_upright(std::vector<SourceCandidate>& candidates) {
   for (double limit = kLitTurn; limit < kPi; limit *= 2.0) {
-    const auto turned = [&](const Candidate& c) { return std::abs(c.angle) > limit; };
+    const auto turned = [&](const SourceCandidate& c) { return std::abs(c.angle) > limit; };
     if (std::count_if(candidates.begin(), candidates.end(), turned) + kEnoughUpright > static_cast<std::ptrdiff_t>(candidates.size())) continue;
     std::erase_if(candidates, turned);
     return;
   }
 }
 
-void keep_best(std::vector<Candidate>& candidates, std::size_t count) {
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+void keep_best(std::vector<SourceCandidate>& candidates, std::size_t count) {
+  std::stable_sort(candidates.begin(), candidates.end(), [](const SourceCandidate& a, const SourceCandidate& b) { return a.cost < b.cost; });
   if (candidates.size() > count) candidates.resize(count);
 }
 
 // Share of the disc where one has a branch and the other has none; places the photo does not have count as well.
-double mask_disagreement(const CandidateContext& context, const Fragment& target, const Candidate& c) {
+double mask_disagreement(const CandidateContext& context, const Fragment& target, const SourceCandidate& c) {
   const FragmentLibrary& library = context.library;
   const Fragment& source = library.fragments[c.source];
   double bad = 0.0;
@@ -193,7 +193,7 @@ std::size_t paired_sample(const Fragment& source, bool mirror, std::size_t sampl
   return mirror && source.kind == FragmentKind::Bank ? source.shape.size() - 1 - sample : sample;
 }
 
-Vec2 photo_offset(const Candidate& candidate, const Vec2& canvas_offset) {
+Vec2 photo_offset(const SourceCandidate& candidate, const Vec2& canvas_offset) {
   const Vec2 turned(candidate.cosine * canvas_offset.x() + candidate.sine * canvas_offset.y(),
                     candidate.cosine * canvas_offset.y() - candidate.sine * canvas_offset.x());
   return mirrored(turned / candidate.scale, candidate.mirrored);
@@ -210,15 +210,15 @@ CandidateContext::CandidateContext(const FragmentLibrary& photo_library, const B
   }, 64);
 }
 
-std::vector<Candidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index) {
-  std::vector<Candidate> candidates = match_shapes(context, target, target_index, false);
+std::vector<SourceCandidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index) {
+  std::vector<SourceCandidate> candidates = match_shapes(context, target, target_index, false);
   // A photo without a single free end: the branch is cut off where it has to end.
   if (candidates.empty() && target.kind == FragmentKind::Along) candidates = match_shapes(context, target, target_index, true);
   if (is_shaded(context.library) && !context.options.paper_greedy) keep_upright(candidates);
   keep_best(candidates, kShapeSurvivors);
   const PlacementOptions& options = context.options;
   if (options.paper_greedy) return candidates;
-  for (Candidate& c : candidates) {
+  for (SourceCandidate& c : candidates) {
     c.disagreement = mask_disagreement(context, target, c);
     c.cost += options.mask_weight * c.disagreement;
     c.cost += options.colour_weight * tone_difference(context, target, context.library.fragments[c.source]);
@@ -230,7 +230,7 @@ std::vector<Candidate> rank_candidates(const CandidateContext& context, const Fr
 }
 
 double overlap_difference(const FragmentLibrary& library, const ColorImage& photo, const Fragment& target_a,
-                          const Candidate& a, const Fragment& target_b, const Candidate& b) {
+                          const SourceCandidate& a, const Fragment& target_b, const SourceCandidate& b) {
   const Vec2 way = target_b.centre - target_a.centre;
   const double distance = way.norm(), ra = target_a.radius, rb = target_b.radius;
   if (distance < 1e-6 || distance >= ra + rb) return 0.0;

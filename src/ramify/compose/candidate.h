@@ -9,7 +9,7 @@
 
 namespace ramify {
 
-struct Candidate {
+struct SourceCandidate {
   int source = kNone;
   bool mirrored = false;
   double angle = 0.0;         // rad
@@ -21,7 +21,7 @@ struct Candidate {
 };
 
 // A shape vector as plain numbers.
-struct Shape {
+struct BranchShape {
   std::array<Vec2, 17> points;   // px from the centre
   std::array<double, 17> radii;  // px
   std::size_t count = 0;
@@ -29,7 +29,7 @@ struct Shape {
 
 // A source, ready to be compared.
 struct SourceShape {
-  Shape straight, mirrored;
+  BranchShape straight, mirrored;
   double log_radius = 0.0;   // log(branch radius + 1)
   double faintness = 0.0;    // 0.9 minus the share of the usual contrast, at least 0
 };
@@ -47,17 +47,17 @@ struct CandidateContext {
 };
 
 // The offset from the source's centre on the photo that an offset from the target's centre is taken from, unbent.
-Vec2 photo_offset(const Candidate& candidate, const Vec2& canvas_offset);
+Vec2 photo_offset(const SourceCandidate& candidate, const Vec2& canvas_offset);
 
 // Which sample of the source lies on the target's. Mirrored banks run backwards, so that the branch stays on its side.
 std::size_t paired_sample(const Fragment& source, bool mirror, std::size_t sample);
 
 // The best candidates of a target, best first; empty when the photo has nothing of its kind.
-std::vector<Candidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index);
+std::vector<SourceCandidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index);
 
 // Mean squared Lab difference of two overlapping discs within their overlap, most of the mean offset taken out (blending
 // removes offsets); 0 when they do not overlap. `photo` is the slightly blurred Lab photo.
 double overlap_difference(const FragmentLibrary& library, const ColorImage& photo, const Fragment& target_a,
-                          const Candidate& a, const Fragment& target_b, const Candidate& b);
+                          const SourceCandidate& a, const Fragment& target_b, const SourceCandidate& b);
 
 }  // namespace ramify

@@ -36,7 +36,7 @@ ColorImage surround_tone(const FragmentLibrary& library) {
 // every chain from base to tip against the discs already chosen beside it.
 class Selection {
  public:
-  Selection(const FragmentLibrary& library, const TargetSet& targets, std::vector<std::vector<Candidate>> candidates,
+  Selection(const FragmentLibrary& library, const TargetSet& targets, std::vector<std::vector<SourceCandidate>> candidates,
             const PlacementOptions& options, Rng rng)
       : library_(library), targets_(targets), candidates_(std::move(candidates)), options_(options), rng_(rng),
         blurred_(gaussian_blur(library.lab, 1.0)), uses_(library.fragments.size(), 0.0),
@@ -60,7 +60,7 @@ class Selection {
     return choice_;
   }
 
-  const Candidate& chosen(int target) const { return candidates_[target][choice_[target]]; }
+  const SourceCandidate& chosen(int target) const { return candidates_[target][choice_[target]]; }
 
  private:
   // Brings overlap differences to the size of shape costs: ratio of the medians over neighbouring best candidates.
@@ -77,7 +77,7 @@ class Selection {
     return median(shapes) / std::max(1e-6, median(overlaps));
   }
 
-  double difference(int a, const Candidate& ca, int b, const Candidate& cb) const {
+  double difference(int a, const SourceCandidate& ca, int b, const SourceCandidate& cb) const {
     return overlap_difference(library_, blurred_, targets_.fragments[a], ca, targets_.fragments[b], cb);
   }
 
@@ -94,9 +94,9 @@ class Selection {
   }
 
   void choose(int target, int before, int after) {
-    const std::vector<Candidate>& list = candidates_[target];
+    const std::vector<SourceCandidate>& list = candidates_[target];
     std::vector<double> costs;
-    for (const Candidate& c : list) {
+    for (const SourceCandidate& c : list) {
       double cost = c.cost;
       for (const int neighbour : {before, after}) {
         if (neighbour == kNone || choice_[neighbour] == kNone) continue;
@@ -128,7 +128,7 @@ class Selection {
 
   const FragmentLibrary& library_;
   const TargetSet& targets_;
-  std::vector<std::vector<Candidate>> candidates_;
+  std::vector<std::vector<SourceCandidate>> candidates_;
   const PlacementOptions& options_;
   Rng rng_;
   ColorImage blurred_;
@@ -153,7 +153,7 @@ FragmentOptions available_kinds(const FragmentLibrary& library, FragmentOptions 
   return options;
 }
 
-Placement placement_of(const FragmentLibrary& library, const Fragment& target, int index, const Candidate& c,
+Placement placement_of(const FragmentLibrary& library, const Fragment& target, int index, const SourceCandidate& c,
                        const PlacementOptions& options) {
   Placement p;
   p.target = index;
@@ -206,7 +206,7 @@ PlacementPlan place_fragments(const FragmentLibrary& library, const Skeleton& sk
   context.seed = rng.child("candidates").next();
   if (!background.empty()) context.canvas_low = gaussian_blur(lab_from_srgb(background), kLowPassSigma);
   const int count = static_cast<int>(plan.targets.fragments.size());
-  std::vector<std::vector<Candidate>> candidates(static_cast<std::size_t>(count));
+  std::vector<std::vector<SourceCandidate>> candidates(static_cast<std::size_t>(count));
   monitor.report(0.2);
   parallel_for(count, [&](int t) {
     monitor.check();

@@ -87,7 +87,7 @@ class DendriteGrower {
  private:
   // How dear a node may be that still matters in a round.
   double reach(int round, double distance) const {
-    const bool anywhere = options_.placement != Placement::Scatter || !target_.endpoints.empty() || (round == 0 && options_.distance <= 0.0);
+    const bool anywhere = options_.placement != EndpointPlacement::Scatter || !target_.endpoints.empty() || (round == 0 && options_.distance <= 0.0);
     return anywhere ? std::numeric_limits<double>::infinity() : distance * cost_per_node_;
   }
 
@@ -116,11 +116,11 @@ class DendriteGrower {
     Rng rng = rng_.child("endpoints", static_cast<std::uint64_t>(round));
     const Size canvas{target_.lattice.width, target_.lattice.height};
     const double spacing = options_.spacing * distance;
-    if (options_.placement == Placement::Moss) return choose_above(sources(), usable(), count, distance, options_.spacing, rng);
-    if (options_.placement == Placement::Lightning && round > 0) {
+    if (options_.placement == EndpointPlacement::Moss) return choose_above(sources(), usable(), count, distance, options_.spacing, rng);
+    if (options_.placement == EndpointPlacement::Lightning && round > 0) {
       return choose_below(sources(), usable(), count, 0.3 * distance, 0.04 * distance, rng);
     }
-    if (options_.placement == Placement::Lightning) {
+    if (options_.placement == EndpointPlacement::Lightning) {
       return choose_spaced(reached([&](int node) { return node / canvas.width >= 0.97 * canvas.height; }), canvas, count, 0.5 * canvas.width / count, rng);
     }
     if (round == 0 && options_.distance <= 0.0) {

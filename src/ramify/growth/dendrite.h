@@ -17,7 +17,7 @@
 namespace ramify {
 
 // Where the endpoints of a round lie.
-enum class Placement {
+enum class EndpointPlacement {
   Scatter,    // anywhere, or at the round's distance from the structure
   Lightning,  // first along the bottom of the canvas, then below the strokes there are
   Moss,       // above the structure
@@ -31,7 +31,7 @@ struct DendriteTarget {
 
 struct DendriteOptions {
   MetricOptions metric;
-  Placement placement = Placement::Scatter;
+  EndpointPlacement placement = EndpointPlacement::Scatter;
   int endpoints = 60;          // m: of the first round
   double distance = 0.0;       // d, nodes: how far from the structure the first round's endpoints lie; 0 = anywhere
   double attenuation = 1.5;    // alpha, > 1: the distance is divided by it every round

@@ -246,9 +246,9 @@ std::vector<OptionField> describe(FigureOptions& o) {
           number("thinnest", o.thinnest, 0, 1000, "px", "Width of the last twigs; 0 = from the space between points.")};
 }
 
-Figure grow_figure(const Mask& shape, const FigureOptions& options, const Rng& rng, const Monitor& monitor) {
+FilledFigure grow_figure(const Mask& shape, const FigureOptions& options, const Rng& rng, const Monitor& monitor) {
   start_point(options.start);
-  Figure figure;
+  FilledFigure figure;
   figure.region = shape;
   double area = 0.0;
   for (const std::uint8_t v : shape.pixels()) area += v != 0;

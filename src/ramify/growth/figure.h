@@ -41,7 +41,7 @@ struct FigureOptions {
 };
 std::vector<OptionField> describe(FigureOptions& options);
 
-struct Figure {
+struct FilledFigure {
   Skeleton skeleton;      // canvas = the picture's size
   Mask region;            // the shape, with bridges
   LabelImage cell;        // cell of every pixel, kNone outside
@@ -54,6 +54,6 @@ struct Figure {
 
 // `shape`: what is not 0 is filled. Throws InputError for an empty shape or one whose parts are all smaller than 3 px.
 // Parts too small are left out with a note.
-Figure grow_figure(const Mask& shape, const FigureOptions& options, const Rng& rng, const Monitor& monitor);
+FilledFigure grow_figure(const Mask& shape, const FigureOptions& options, const Rng& rng, const Monitor& monitor);
 
 }  // namespace ramify

@@ -108,7 +108,7 @@ LoadedPainting paint_figure(const FigureRequest& request, const LoadedFigure& fi
   return lay_out_painting(request.painting, figure.figure.skeleton, "figure", figure.recipe, figure.files, free ? Mask() : figure.figure.region, monitor);
 }
 
-void save_figure_intermediates(const Figure& figure, const std::string& folder) {
+void save_figure_intermediates(const FilledFigure& figure, const std::string& folder) {
   save_mask(folder + "/region.png", figure.region);
   save_mask16(folder + "/cells.png", label_picture(figure.cell));
   save_skeleton(figure.skeleton, folder + "/skeleton.json");

@@ -33,7 +33,7 @@ struct FigureRequest {
 PaintingOptions figure_painting();
 
 struct LoadedFigure {
-  Figure figure;
+  FilledFigure figure;
   Recipe recipe;
   std::vector<std::string> files;
 };
@@ -44,7 +44,7 @@ LoadedFigure load_figure(const FigureRequest& request, std::uint64_t seed, const
 LoadedPainting paint_figure(const FigureRequest& request, const LoadedFigure& figure, const Monitor& monitor);
 
 // Region, cells, sites and skeleton as files in a folder.
-void save_figure_intermediates(const Figure& figure, const std::string& folder);
+void save_figure_intermediates(const FilledFigure& figure, const std::string& folder);
 
 FigureRequest figure_from_recipe(const Recipe& recipe, const std::vector<std::string>& folders);
 

@@ -100,7 +100,7 @@ std::vector<int> load_generators(const DendriteRequest& request, const Lattice& 
     }
     return out;
   }
-  const bool lightning = request.grow.placement == Placement::Lightning, moss = request.grow.placement == Placement::Moss;
+  const bool lightning = request.grow.placement == EndpointPlacement::Lightning, moss = request.grow.placement == EndpointPlacement::Moss;
   if (!lightning && !moss) return middles_of_pieces(lattice);
   for (int x = 0; x < lattice.width; ++x) {
     const int node = lightning ? lattice.node(lattice.width / 2, 0) : lattice.node(x, lattice.height - 1);

@@ -23,7 +23,7 @@ struct Task {
 };
 
 // What can win in the square among `from`, in order.
-std::vector<int> select(const std::vector<Capsule>& capsules, std::span<const int> from, const Square& square, double reach) {
+std::vector<int> select(const std::vector<BodyCapsule>& capsules, std::span<const int> from, const Square& square, double reach) {
   const double half = 0.5 * square.side, radius = half * std::sqrt(2.0);
   const Vec2 centre(square.x + half - 0.5, square.y + half - 0.5);
   std::vector<double> distances(from.size());
@@ -41,7 +41,7 @@ std::vector<int> select(const std::vector<Capsule>& capsules, std::span<const in
 
 class Walk {
  public:
-  Walk(const std::vector<Capsule>& capsules, Size canvas, double reach, const std::function<void(const CapsuleTile&)>& visit)
+  Walk(const std::vector<BodyCapsule>& capsules, Size canvas, double reach, const std::function<void(const CapsuleTile&)>& visit)
       : capsules_(capsules), canvas_(canvas), reach_(reach), visit_(visit) {}
 
   // Depth is log2(side / kLeaf): bounded by the canvas, not by the skeleton.
@@ -62,7 +62,7 @@ class Walk {
   }
 
  private:
-  const std::vector<Capsule>& capsules_;
+  const std::vector<BodyCapsule>& capsules_;
   Size canvas_;
   double reach_;
   const std::function<void(const CapsuleTile&)>& visit_;
@@ -70,7 +70,7 @@ class Walk {
 
 }  // namespace
 
-void visit_capsule_tiles(const std::vector<Capsule>& capsules, Size canvas, double reach,
+void visit_capsule_tiles(const std::vector<BodyCapsule>& capsules, Size canvas, double reach,
                          const std::function<void(const CapsuleTile&)>& visit) {
   std::vector<int> all(capsules.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
@@ -82,7 +82,7 @@ void visit_capsule_tiles(const std::vector<Capsule>& capsules, Size canvas, doub
   parallel_for(static_cast<int>(tasks.size()), [&](int i) { walk.descend(tasks[i].square, tasks[i].candidates, nullptr); });
 }
 
-NearestCapsule nearest_capsule(const std::vector<Capsule>& capsules, std::span<const int> candidates, const Vec2& point) {
+NearestCapsule nearest_capsule(const std::vector<BodyCapsule>& capsules, std::span<const int> candidates, const Vec2& point) {
   NearestCapsule nearest;
   for (const int i : candidates) {
     const CapsuleHit hit = capsule_hit(capsules[i], point);

@@ -19,7 +19,7 @@ struct CapsuleTile {
 
 // Calls `visit` once for every tile of the canvas, from several threads; it may write only pixels of its tile. Pixels
 // whose signed distance exceeds `reach` (px) may lie in a tile without candidates.
-void visit_capsule_tiles(const std::vector<Capsule>& capsules, Size canvas, double reach,
+void visit_capsule_tiles(const std::vector<BodyCapsule>& capsules, Size canvas, double reach,
                          const std::function<void(const CapsuleTile&)>& visit);
 
 struct NearestCapsule {
@@ -27,6 +27,6 @@ struct NearestCapsule {
   CapsuleHit hit;
 };
 // Over the candidates; the lowest index wins ties.
-NearestCapsule nearest_capsule(const std::vector<Capsule>& capsules, std::span<const int> candidates, const Vec2& point);
+NearestCapsule nearest_capsule(const std::vector<BodyCapsule>& capsules, std::span<const int> candidates, const Vec2& point);
 
 }  // namespace ramify

@@ -6,8 +6,8 @@
 
 namespace ramify {
 
-std::vector<Capsule> branch_capsules(const Skeleton& skeleton, const BranchTree& tree) {
-  std::vector<Capsule> capsules;
+std::vector<BodyCapsule> branch_capsules(const Skeleton& skeleton, const BranchTree& tree) {
+  std::vector<BodyCapsule> capsules;
   std::vector<double> arc_of_node(static_cast<std::size_t>(skeleton.count()), 0.0);
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {
     const Branch& branch = tree.branches[b];
@@ -32,7 +32,7 @@ std::vector<Capsule> branch_capsules(const Skeleton& skeleton, const BranchTree&
   return capsules;
 }
 
-CapsuleHit capsule_hit(const Capsule& capsule, const Vec2& point) {
+CapsuleHit capsule_hit(const BodyCapsule& capsule, const Vec2& point) {
   const Vec2 axis = capsule.b - capsule.a, from = point - capsule.a;
   const double length = axis.norm(), growth = capsule.radius_b - capsule.radius_a;
   double fraction = 0.0;

@@ -10,7 +10,7 @@
 
 namespace ramify {
 
-struct Capsule {
+struct BodyCapsule {
   Vec2 a = Vec2::Zero(), b = Vec2::Zero();  // px
   double radius_a = 0.0, radius_b = 0.0;    // px
   int branch = kNone;                       // index into BranchTree::branches
@@ -19,7 +19,7 @@ struct Capsule {
 
 // One per edge, branch by branch; a branch of a single node gives one disc. The edge from a parent to its child has the
 // child's first radius at both ends (branch_polyline). Loop links come last, with the branch and arc of their first node.
-std::vector<Capsule> branch_capsules(const Skeleton& skeleton, const BranchTree& tree);
+std::vector<BodyCapsule> branch_capsules(const Skeleton& skeleton, const BranchTree& tree);
 
 struct CapsuleHit {
   double signed_distance = 0.0;  // px to the surface, negative inside; its slope is 1 everywhere
@@ -27,6 +27,6 @@ struct CapsuleHit {
 };
 
 // Exact for round cones: minimises |p - c(t)| - r(t) over the axis.
-CapsuleHit capsule_hit(const Capsule& capsule, const Vec2& point);
+CapsuleHit capsule_hit(const BodyCapsule& capsule, const Vec2& point);
 
 }  // namespace ramify

@@ -14,8 +14,8 @@ namespace {
 constexpr double kSettled = 1.5;  // parent radii beyond the rim where a child's radius is its own (PICTURES 3)
 
 // The parent's capsules near the junction; farther ones cannot be the reason why the child is still inside.
-std::vector<Capsule> parent_body(const Skeleton& skeleton, const Branch& parent, int node) {
-  std::vector<Capsule> body;
+std::vector<BodyCapsule> parent_body(const Skeleton& skeleton, const Branch& parent, int node) {
+  std::vector<BodyCapsule> body;
   const Polyline line = branch_polyline(skeleton, parent);
   const std::size_t lead = line.points.size() - parent.nodes.size();
   const auto at = static_cast<int>(std::lower_bound(parent.nodes.begin(), parent.nodes.end(), node) - parent.nodes.begin() + lead);
@@ -30,14 +30,14 @@ std::vector<Capsule> parent_body(const Skeleton& skeleton, const Branch& parent,
   return body;
 }
 
-double distance_to(const std::vector<Capsule>& body, const Vec2& p) {
+double distance_to(const std::vector<BodyCapsule>& body, const Vec2& p) {
   double best = 1e300;
-  for (const Capsule& capsule : body) best = std::min(best, capsule_hit(capsule, p).signed_distance);
+  for (const BodyCapsule& capsule : body) best = std::min(best, capsule_hit(capsule, p).signed_distance);
   return best;
 }
 
 // Arc at which the line leaves the body for the first time and stays out to the next point; < 0 when it never does.
-double rim_arc(const std::vector<Capsule>& body, const Polyline& line, const std::vector<double>& arcs) {
+double rim_arc(const std::vector<BodyCapsule>& body, const Polyline& line, const std::vector<double>& arcs) {
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     if (distance_to(body, line.points[i]) <= 0.0) continue;
     double inside = arcs[i - 1], outside = arcs[i];

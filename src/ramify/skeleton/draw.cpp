@@ -14,7 +14,7 @@ constexpr int kSamples = 8;                // a side, of a pixel
 constexpr double kHalfDiagonal = 0.7072;   // px; beyond this the boundary cannot cross the pixel
 
 template <class Visit>
-void visit_pixels(const std::vector<Capsule>& capsules, Size canvas, double reach, const Visit& visit) {
+void visit_pixels(const std::vector<BodyCapsule>& capsules, Size canvas, double reach, const Visit& visit) {
   visit_capsule_tiles(capsules, canvas, reach, [&](const CapsuleTile& tile) {
     if (tile.candidates.empty()) return;
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
@@ -25,7 +25,7 @@ void visit_pixels(const std::vector<Capsule>& capsules, Size canvas, double reac
   });
 }
 
-std::uint8_t coverage(const std::vector<Capsule>& capsules, std::span<const int> candidates, int x, int y, double distance) {
+std::uint8_t coverage(const std::vector<BodyCapsule>& capsules, std::span<const int> candidates, int x, int y, double distance) {
   if (distance <= -kHalfDiagonal) return 255;
   if (distance >= kHalfDiagonal) return 0;
   int inside = 0;
@@ -39,7 +39,7 @@ std::uint8_t coverage(const std::vector<Capsule>& capsules, std::span<const int>
   return static_cast<std::uint8_t>(std::lround(255.0 * inside / (kSamples * kSamples)));
 }
 
-double radius_at(const Capsule& capsule, double fraction) {
+double radius_at(const BodyCapsule& capsule, double fraction) {
   return capsule.radius_a + fraction * (capsule.radius_b - capsule.radius_a);
 }
 
@@ -60,7 +60,7 @@ Image<NearestBranch> draw_nearest_branch(const Skeleton& skeleton, Size canvas, 
   Image<NearestBranch> result(canvas);
   const auto capsules = branch_capsules(skeleton, branch_tree(skeleton));
   visit_pixels(capsules, canvas, reach, [&](int x, int y, const NearestCapsule& nearest, std::span<const int>) {
-    const Capsule& capsule = capsules[nearest.capsule];
+    const BodyCapsule& capsule = capsules[nearest.capsule];
     const double fraction = nearest.hit.fraction, radius = radius_at(capsule, fraction);
     NearestBranch& pixel = result(x, y);
     pixel.distance = static_cast<float>(nearest.hit.signed_distance + radius);
@@ -77,7 +77,7 @@ SkeletonMasks draw_masks(const Skeleton& skeleton, Size canvas) {
   const BranchTree tree = branch_tree(skeleton);
   const auto capsules = branch_capsules(skeleton, tree);
   visit_pixels(capsules, canvas, 1.0, [&](int x, int y, const NearestCapsule& nearest, std::span<const int> candidates) {
-    const Capsule& capsule = capsules[nearest.capsule];
+    const BodyCapsule& capsule = capsules[nearest.capsule];
     const double distance = nearest.hit.signed_distance, radius = radius_at(capsule, nearest.hit.fraction);
     masks.branch(x, y) = coverage(capsules, candidates, x, y, distance);
     if (distance > 0.0 && distance + radius > 0.5) return;

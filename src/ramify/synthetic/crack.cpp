@@ -20,7 +20,7 @@ TreePlan crack_plan(Size size, Rng rng) {
   plan.thinnest = 0.8;
   plan.radius_noise = 0.28;
   const auto jagged = [s](double kink, double homing, double home) {
-    return Course{.kink_length = 12.0 * s, .kink_angle = kink, .bend_length = 170.0 * s, .bend_angle = 0.25,
+    return TreeCourse{.kink_length = 12.0 * s, .kink_angle = kink, .bend_length = 170.0 * s, .bend_angle = 0.25,
                   .ripple_length = 6.0 * s, .ripple_angle = 0.20, .homing = homing / s, .home = home};
   };
   const bool flip = rng.uniform() < 0.5;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kDown = 0.5 * kPi;
 
 // Leaders advance in steps: short straight pieces, each turned against the one before.
-Course stepped(double s, double kink, double homing, double home) {
+TreeCourse stepped(double s, double kink, double homing, double home) {
   return {.kink_length = 9.0 * s, .kink_angle = kink, .bend_length = 90.0 * s, .bend_angle = 0.28,
           .ripple_length = 7.0 * s, .ripple_angle = 0.16, .homing = homing / s, .home = home};
 }

@@ -28,7 +28,7 @@ TreePlan river_plan(Size size, Rng rng) {
   // Aimed so that it crosses the middle of the picture.
   const double reach = 0.5 * w + 30.0 * s;
   const double y = 0.5 * h - reach * std::sin(heading) + 0.08 * h * rng.normal();
-  RootPlan mouth;
+  SyntheticRoot mouth;
   mouth.start = Vec2(right ? -30.0 * s : w + 30.0 * s, y);
   mouth.heading = heading;
   mouth.radius = 23.0 * s;
@@ -38,9 +38,9 @@ TreePlan river_plan(Size size, Rng rng) {
                   .homing = 0.004 / s, .home = heading};
   plan.roots.push_back(mouth);
   const auto winding = [s](double length, double bend, double ripple) {
-    return Course{.bend_length = length * s, .bend_angle = bend, .ripple_length = 0.32 * length * s, .ripple_angle = ripple};
+    return TreeCourse{.bend_length = length * s, .bend_angle = bend, .ripple_length = 0.32 * length * s, .ripple_angle = ripple};
   };
-  const Course tributary = winding(100.0, 0.75, 0.25), creek = winding(52.0, 0.75, 0.3), rill = winding(34.0, 0.7, 0.3);
+  const TreeCourse tributary = winding(100.0, 0.75, 0.25), creek = winding(52.0, 0.75, 0.3), rill = winding(34.0, 0.7, 0.3);
   plan.levels.push_back({.count = 10, .angle_low = 0.6, .angle_high = 1.25, .length_low = 0.45, .length_high = 1.0,
                          .ratio_low = 0.10, .ratio_high = 0.30, .tip_share = 0.2, .shortest = 110.0 * s, .whole = 0.45,
                          .alternate = 0.75, .first = 0.06, .last = 0.95, .course = tributary});

@@ -75,7 +75,7 @@ struct Start {
 };
 
 // Straight pieces with sudden turns: the heading's offset at every step.
-std::vector<double> kinks(const Course& course, int count, Rng rng) {
+std::vector<double> kinks(const TreeCourse& course, int count, Rng rng) {
   std::vector<double> offset(count, 0.0);
   if (course.kink_length <= 0.0) return offset;
   double left = 0.0, angle = 0.0;
@@ -98,7 +98,7 @@ class TreeDrawer {
   std::vector<AnnotatedBranch> draw(const Rng& rng, const Monitor& monitor) {
     std::vector<int> previous, elders;
     for (std::size_t i = 0; i < plan_.roots.size(); ++i) {
-      const RootPlan& root = plan_.roots[i];
+      const SyntheticRoot& root = plan_.roots[i];
       const Start start{root.start, root.heading, root.radius, root.length, root.tip_share, kNone, kNone};
       for (int attempt = 0; attempt < kTries; ++attempt) {
         const double shortest = attempt + 1 < kTries ? std::max(root.shortest, 8.0 * root.radius) : 8.0 * root.radius;
@@ -210,7 +210,7 @@ class TreeDrawer {
   }
 
   // Walks one branch and keeps it when it gets at least `shortest` px far.
-  bool grow(const Start& start, const Course& course, double shortest, const Rng& rng) {
+  bool grow(const Start& start, const TreeCourse& course, double shortest, const Rng& rng) {
     const double diagonal = std::hypot(plan_.size.width, plan_.size.height);
     const int most = static_cast<int>(std::min(start.length, 2.0 * diagonal) / kStep);
     const std::vector<double> kink = kinks(course, most + 1, rng.child("kinks"));

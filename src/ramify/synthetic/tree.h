@@ -14,7 +14,7 @@
 namespace ramify {
 
 // How a branch winds. All angles are standard deviations around its base heading.
-struct Course {
+struct TreeCourse {
   double kink_length = 0.0;   // px, typical length of straight pieces between sudden turns; 0 = no kinks
   double kink_angle = 0.0;    // rad
   double bend_length = 200.0; // px, wavelength of the smooth bends
@@ -25,14 +25,14 @@ struct Course {
   double home = 0.0;          // rad
 };
 
-struct RootPlan {
+struct SyntheticRoot {
   Vec2 start = Vec2::Zero();  // px, may lie outside the frame
   double heading = 0.0;       // rad
   double radius = 4.0;        // px at the start
   double length = 1e9;        // px at most
   double shortest = 0.0;      // px; other courses are tried when the first ends earlier
   double tip_share = 0.1;     // radius at a free end, as a share of the start's
-  Course course;
+  TreeCourse course;
 };
 
 // The children of all branches of the order before.
@@ -48,12 +48,12 @@ struct LevelPlan {
   double first = 0.06, last = 0.95;             // where on the parent children may start, share of its length
   bool on_elders = true;                        // also on the orders before the last
   double irregular = 0.9;                       // how far from even spacing, 0 … 1
-  Course course;
+  TreeCourse course;
 };
 
 struct TreePlan {
   Size size;
-  std::vector<RootPlan> roots;
+  std::vector<SyntheticRoot> roots;
   std::vector<LevelPlan> levels;      // order 1, 2, …
   double clearance = 6.0;             // px between the rims of two branches
   double thinnest = 0.8;              // px, no radius is smaller

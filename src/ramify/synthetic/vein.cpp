@@ -58,7 +58,7 @@ TreePlan vein_plan(Size size, const Leaf& leaf) {
     return (p - leaf.base).dot(leaf.along) < 0.0 || leaf.inside(p, true) > 4.0 * s;
   };
   const double axis = angle_of(leaf.along), bend = std::atan(4.0 * leaf.bow / leaf.length);
-  const Course midrib{.bend_length = 300.0 * s, .bend_angle = 0.015, .ripple_length = 40.0 * s, .ripple_angle = 0.012,
+  const TreeCourse midrib{.bend_length = 300.0 * s, .bend_angle = 0.015, .ripple_length = 40.0 * s, .ripple_angle = 0.012,
                       .homing = std::fabs(bend) > 1e-3 ? 2.0 / leaf.length : 0.0, .home = axis - 1.3 * bend};
   // The petiole enters through the frame.
   const Vec2 back = direction_of(axis + bend);
@@ -69,7 +69,7 @@ TreePlan vein_plan(Size size, const Leaf& leaf) {
                         .length = petiole + 0.99 * leaf.length, .tip_share = 0.13, .course = midrib});
   const double first = (petiole + 0.015 * leaf.length) / (petiole + leaf.length);
   const auto curved = [&](double homing) {
-    return Course{.bend_length = 120.0 * s, .bend_angle = 0.08, .ripple_length = 26.0 * s, .ripple_angle = 0.05,
+    return TreeCourse{.bend_length = 120.0 * s, .bend_angle = 0.08, .ripple_length = 26.0 * s, .ripple_angle = 0.05,
                   .homing = homing / s, .home = axis};
   };
   plan.levels.push_back({.count = 26, .angle_low = 0.75, .angle_high = 0.88, .length_low = 1.0, .length_high = 1.0,

@@ -49,13 +49,13 @@ TreePlan vessel_plan(Size size, const Eye& eye, Rng rng) {
   for (const Main& main : mains) {
     const auto turned = [&](double angle) { return eye.side > 0 ? angle : kPi - angle; };
     const double angle = turned(main.angle + rng.uniform(-0.12, 0.12));
-    const Course course{.bend_length = 150.0 * s, .bend_angle = 0.17, .ripple_length = 36.0 * s, .ripple_angle = 0.09,
+    const TreeCourse course{.bend_length = 150.0 * s, .bend_angle = 0.17, .ripple_length = 36.0 * s, .ripple_angle = 0.09,
                         .homing = main.homing / s, .home = turned(main.home + rng.uniform(-0.15, 0.15))};
     plan.roots.push_back({.start = eye.disc + 7.0 * s * direction_of(angle), .heading = angle, .radius = main.radius * s,
                           .tip_share = 0.3, .course = course});
   }
   const auto winding = [s](double bend) {
-    return Course{.bend_length = 90.0 * s, .bend_angle = bend, .ripple_length = 22.0 * s, .ripple_angle = 0.13};
+    return TreeCourse{.bend_length = 90.0 * s, .bend_angle = bend, .ripple_length = 22.0 * s, .ripple_angle = 0.13};
   };
   plan.levels.push_back({.count = 18, .angle_low = 0.5, .angle_high = 1.0, .length_low = 0.3, .length_high = 0.7,
                          .ratio_low = 0.35, .ratio_high = 0.65, .tip_share = 0.4, .shortest = 60.0 * s,
