@@ -7,6 +7,7 @@
 #include "ramify/core/atomic_file.h"
 #include "ramify/core/error.h"
 #include "ramify/image/image_io.h"
+#include "ramify/recipe/pipeline.h"
 #include "ramify/recipe/recipe.h"
 #include "support/pictures.h"
 #include "support/temp_folder.h"
@@ -169,4 +170,14 @@ TEST_CASE("options become texts that read back") {
   const auto values = option_values(
       {number("count", count, 0, 9, "", ""), number("size", size, 0.0, 1.0, "px", ""), flag("loud", loud, "")});
   CHECK(values == std::map<std::string, std::string>{{"count", "3"}, {"size", "0.1"}, {"loud", "true"}});
+}
+
+TEST_CASE("grow: a stalk too narrow for the first try is tried again, not left as a stump") {
+  PictureRequest request;
+  request.verb = "grow";
+  request.exemplar.argument = "builtin:vein";
+  const LoadedRequest loaded = load_request(request, {});
+  for (const std::uint64_t seed : {15u, 18u}) {  // once left the habitat within 50 px, through the stalk's side
+    CHECK(make_picture(loaded, seed, {}).skeleton.count() > 1000);
+  }
 }

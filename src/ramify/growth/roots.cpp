@@ -117,7 +117,9 @@ std::vector<int> grow_own_roots(GrowthState& state) {
       const int number = place_root(state, plan, rng);
       if (number == kNone) continue;
       const GrowingBranch& branch = state.branches[number];
-      const bool good = branch.stop != GrowthStop::Stuck || branch.arc(state.style.step) > 0.3 * branch.length;
+      // Stuck early, or out of the habitat or frame all but at once: another start may do better.
+      const double least = branch.stop == GrowthStop::Stuck ? 0.3 : 0.1;
+      const bool good = branch.arc(state.style.step) > least * branch.length;
       if (good || attempt + 1 == kTries) {
         grown.push_back(number);
         settled.insert(tree);
