@@ -41,7 +41,7 @@ void add_exemplar_options(CLI::App& app, PictureArguments& a) {
 void add_growth_options(CLI::App& app, PictureArguments& a) {
   app.add_option("--density", a.request.density, "Painted map: white is grown and filled, black never entered")
       ->type_name("IMAGE");
-  app.add_option("--guide", a.request.guide, "Course of the main branch: a path (.svg) or white on black")
+  app.add_option("--guide", a.request.guide, "Courses that main branches follow: paths (.svg; a path that starts on another forks from it) or white on black")
       ->type_name("SVG|IMAGE");
   std::vector<OptionField> fields = describe(a.request.options.learn);
   for (OptionField& field : describe(a.request.options.grow)) fields.push_back(field);
