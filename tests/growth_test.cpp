@@ -387,3 +387,46 @@ TEST_CASE("a root on a landmark stays where the kept ground has it") {
     CHECK(nearest < 1e-6);
   }
 }
+
+namespace {
+
+// Mean number of vertices copied in one piece into one long main branch.
+double mean_run(int extension, int history, int candidates) {
+  test::WavyTree tree;
+  tree.orders = 1;
+  tree.size = {1400, 400};
+  tree.length = 1300.0;
+  LearnStyleOptions learn;
+  learn.feature_size = 2.0 * extension;  // so that the step is 2 px in every setting
+  learn.extension = extension;
+  learn.history = history;
+  learn.mirror = false;
+  const Style style = learn_style(test::wavy_tree(tree, 5), learn, Monitor{});
+  GrowOptions grow;
+  grow.paper_exact = true;
+  grow.candidates = candidates;
+  grow.histogram_weight = 0.0;
+  grow.levels = 1;
+  int runs = 0, copied = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const Skeleton grown = grow_from_style(style, canvas(1400, 1400), grow, Rng(seed), Monitor{});
+    for (const Node& node : grown.nodes()) {
+      if (node.tag == 0) continue;
+      ++copied;
+      runs += node.parent == kNone || grown[node.parent].tag + 1 != node.tag;
+    }
+  }
+  REQUIRE(copied > 400);
+  return static_cast<double>(copied) / std::max(1, runs);
+}
+
+}  // namespace
+
+// Paper 002, figure 3: one candidate and a long history copy the exemplar; two candidates deviate from it now and then; a
+// short history and short pieces keep little of it.
+TEST_CASE("history extension and candidates act as in the paper's parameter study") {
+  const double exact = mean_run(8, 48, 1), deviating = mean_run(8, 48, 2), unlike = mean_run(2, 2, 2);
+  INFO("mean runs " << exact << ' ' << deviating << ' ' << unlike);
+  CHECK(exact > 3.0 * deviating);
+  CHECK(deviating > 2.0 * unlike);
+}

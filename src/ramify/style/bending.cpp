@@ -87,11 +87,11 @@ double square_difference(std::span<const double> a, std::span<const double> b) {
 
 }  // namespace
 
-BendingModel make_bending(const std::vector<BendingBranch>& branches, double step, int extension, bool mirror) {
+BendingModel make_bending(const std::vector<BendingBranch>& branches, double step, int extension, int history, bool mirror) {
   BendingModel model;
   model.step = step;
   model.extension = extension;
-  model.history = 3 * extension;
+  model.history = history;
   model.first = {0};
   for (const BendingBranch& branch : branches) {
     const std::vector<double> alpha = turning_angles(branch.points);

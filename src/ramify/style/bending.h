@@ -37,8 +37,8 @@ struct BendingBranch {
   std::vector<double> radii;  // px
 };
 
-// Builds arrays, profiles, gains and histograms. extension = m >= 1; mirror: count every bend also mirrored.
-BendingModel make_bending(const std::vector<BendingBranch>& branches, double step, int extension, bool mirror);
+// Builds arrays, profiles, gains and histograms. extension = m >= 1, history = k >= 1; mirror: count every bend also mirrored.
+BendingModel make_bending(const std::vector<BendingBranch>& branches, double step, int extension, int history, bool mirror);
 
 // 1 / (difference + 1) + 1, in (1, 2]: the paper's dist for an already measured ||X - Y||.
 double likeness(double difference);

@@ -102,6 +102,7 @@ std::vector<OptionField> describe(LearnStyleOptions& options) {
   return {
       number("feature-size", options.feature_size, 0.0, 10000.0, "px", "Size of a typical bend; 0 measures it."),
       number("extension", options.extension, 2, 64, "", "Vertices per feature size: m of the paper."),
+      number("history", options.history, 0, 4096, "", "Vertices compared with the exemplar: k of the paper; 0 = 3 m."),
       flag("mirror-bends", options.mirror, "Learn every bend also mirrored."),
       flag("signed-angles", options.signed_angles, "Furcations learn signed turning angles, as the paper does."),
       flag("platt-probabilities", options.platt_probabilities,
@@ -126,7 +127,8 @@ Style learn_style(const Skeleton& exemplar, const LearnStyleOptions& given, cons
   turn_frame_roots(branches, style.feature_size);
   mark_joins(branches, std::max(4.0, style.step));
   Learnt learnt = resample_all(branches, style.step, options.extension);
-  style.bending = make_bending(learnt.bends, style.step, options.extension, options.mirror);
+  style.bending = make_bending(learnt.bends, style.step, options.extension,
+                               options.history > 0 ? options.history : 3 * options.extension, options.mirror);
   if (style.bending.vertex_count() < kFewestVertices) {
     throw InputError("", "the skeleton is too small to learn from: " + std::to_string(style.bending.vertex_count()) +
                              " steps of " + number_text(style.step) + " px along its branches, at least " +

@@ -18,6 +18,7 @@ namespace ramify {
 struct LearnStyleOptions {
   double feature_size = 0.0;       // px, size of a typical bend; 0 = measured (PICTURES 12.2-1)
   int extension = 8;               // m, vertices per extension; the step is feature_size / m
+  int history = 0;                 // k, vertices compared beside the tip; 0 = 3 m, the paper's rule
   bool mirror = true;              // learn every bend also mirrored
   bool signed_angles = false;      // furcations learn signed turning angles, as the paper
   bool platt_probabilities = false;  // furcation probabilities from five random folds, as the paper's libsvm
