@@ -9,11 +9,13 @@
 #include "ramify/growth/density_fill.h"
 #include "ramify/growth/painted_fill.h"
 #include "ramify/growth/roots.h"
+#include "ramify/growth/thickness.h"
 
 namespace ramify {
 namespace {
 
-constexpr double kTemplateShare = 1.0;  // of the template's small children; what found no room is filled in where there is some
+constexpr double kTemplateShare =
+    1.0;  // of the template's small children; what found no room is filled in where there is some
 
 // A child that is to be placed. Longest first over the whole tree, so that the large structure stands before the small
 // fills it; ties by age.
@@ -50,23 +52,26 @@ void grow_children(GrowthState& state, const std::vector<int>& roots, int most_o
 
 // What was stunted or found no place leaves forks missing. The exemplar's shortest children find room for themselves.
 void add_twigs(GrowthState& state, int most_order) {
-  constexpr double kShort = 0.5;       // of the children, by length
-  constexpr double kMostLength = 1.05; // of the wanted
+  constexpr double kShort = 0.5;        // of the children, by length
+  constexpr double kMostLength = 1.05;  // of the wanted
   const Style& style = state.style;
   std::vector<int> twigs;
   for (int b = 0; b < style.bending.branch_count(); ++b) {
     if (style.hierarchy.branches[b].parent != kNone) twigs.push_back(b);
   }
-  std::stable_sort(twigs.begin(), twigs.end(), [&](int a, int b) { return style.bending.length_of(a) < style.bending.length_of(b); });
+  std::stable_sort(twigs.begin(), twigs.end(),
+                   [&](int a, int b) { return style.bending.length_of(a) < style.bending.length_of(b); });
   twigs.resize(static_cast<std::size_t>(std::ceil(kShort * static_cast<double>(twigs.size()))));
   if (twigs.empty()) return;
   const int missing = static_cast<int>(state.wanted_forks()) - state.forks();
   Rng rng = state.rng.child("grow.twigs");
-  for (int i = 0, left = missing; i < 4 * missing && left > 0 && state.grown_length < kMostLength * state.wanted_length; ++i) {
+  for (int i = 0, left = missing; i < 4 * missing && left > 0 && state.grown_length < kMostLength * state.wanted_length;
+       ++i) {
     state.monitor.check();
     // Longer branches carry more.
     std::vector<double> weights;
-    for (const GrowingBranch& branch : state.branches) weights.push_back(branch.order < most_order ? branch.count() : 0.0);
+    for (const GrowingBranch& branch : state.branches)
+      weights.push_back(branch.order < most_order ? branch.count() : 0.0);
     const int parent = rng.discrete(weights);
     const int source = twigs[static_cast<std::size_t>(rng.below(static_cast<int>(twigs.size())))];
     const WantedChild twig{source, rng.uniform(), 0.2, rng.uniform() < 0.5 ? 1 : -1};
@@ -96,15 +101,20 @@ void grow_by_probability(GrowthState& state, std::vector<int> open, int most_ord
 
 std::vector<OptionField> describe(GrowOptions& options) {
   return {
-      number("tropism", options.tropism, -1.0, 2.0, "", "Strength of the learnt absolute direction; -1 as in the exemplar."),
+      number("tropism", options.tropism, -1.0, 2.0, "",
+             "Strength of the learnt absolute direction; -1 as in the exemplar."),
       number("length", options.length, 0.01, 20.0, "", "Total length per area, relative to the exemplar's."),
-      number("levels", options.levels, 0, 100, "", "How many orders may grow, 1 = main branches only; 0 = as many as come."),
-      number("guide-width", options.guide_width, 0.0, 100000.0, "px", "Width of the valley along a guide; 0 = 1.5 times the bends."),
-      number("histogram-weight", options.histogram_weight, 0.0, 400.0, "", "Weight of histogram matching: omega_G of the paper."),
+      number("levels", options.levels, 0, 100, "",
+             "How many orders may grow, 1 = main branches only; 0 = as many as come."),
+      number("guide-width", options.guide_width, 0.0, 100000.0, "px",
+             "Width of the valley along a guide; 0 = 1.5 times the bends."),
+      number("histogram-weight", options.histogram_weight, 0.0, 400.0, "",
+             "Weight of histogram matching: omega_G of the paper."),
       number("candidates", options.candidates, 1, 24, "", "Draw every step among the best so many candidates."),
       flag("raw-distance", options.raw_distance, "Compare windows without normalisation, as the paper."),
       flag("radius-histogram", options.radius_histogram, "Match the histogram of radii as well, as the paper."),
-      flag("raster-density", options.raster_density, "Avoid others by density on pixels, as the paper; branches may touch."),
+      flag("raster-density", options.raster_density,
+           "Avoid others by density on pixels, as the paper; branches may touch."),
       flag("parent-first", options.parent_first, "Fork by probability alone, branch after branch, as the paper."),
       flag("copy-stem", options.copy_stem, "Start the main stem as a copy of the exemplar's, as the paper."),
       flag("free-direction", options.free_direction, "Ignore absolute directions, as the paper."),
@@ -124,7 +134,8 @@ Skeleton grow_from_style(const Style& style, const GrowthTarget& target, const G
   }
   GrowthState state(style, target, options, rng, monitor);
   // Orders the exemplar has not are no style; a painted map may need a few to fill its corners.
-  const int most_order = options.levels > 0 ? options.levels - 1 : style.hierarchy.highest_order + (state.ground.painted() ? 12 : 0);
+  const int most_order =
+      options.levels > 0 ? options.levels - 1 : style.hierarchy.highest_order + (state.ground.painted() ? 12 : 0);
   const bool painted = state.ground.painted() && !options.parent_first;
   const bool own_places = painted && target.roots.empty() && state.drawn.empty();
   const std::vector<int> roots = own_places ? std::vector<int>{} : grow_roots(state);
@@ -138,10 +149,14 @@ Skeleton grow_from_style(const Style& style, const GrowthTarget& target, const G
     if (most_order > 0) fill_wanted(state, most_order);
     if (most_order > 0 && !state.ground.painted()) add_twigs(state, most_order);
   }
+  const bool own_widths = std::none_of(target.roots.begin(), target.roots.end(),
+                                       [](const GrowthRoot& root) { return root.radius.has_value(); });
+  if (own_widths && !state.ground.painted() && !options.free_radius) match_thickness(state);
   monitor.report(1.0);
   if (state.branches.empty()) {
     throw InputError("", "nothing could grow on this canvas: it is too small or too narrow for branches " +
-                             number_text(2.0 * style.unit_radius) + " px wide with bends of " + number_text(style.feature_size) + " px");
+                             number_text(2.0 * style.unit_radius) + " px wide with bends of " +
+                             number_text(style.feature_size) + " px");
   }
   return skeleton_from(state.branches, target.size);
 }
