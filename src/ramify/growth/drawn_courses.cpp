@@ -8,92 +8,15 @@
 #include "ramify/core/error.h"
 #include "ramify/geometry/polyline.h"
 #include "ramify/geometry/segment.h"
-#include "ramify/growth/ways.h"
-#include "ramify/image/filter.h"
+#include "ramify/growth/mask_strokes.h"
 
 namespace ramify {
 namespace {
 
 using Path = std::vector<Vec2>;
 
-constexpr double kStep = 4.0;      // px between a path's points
-constexpr double kBeyond = 60.0;   // px a path is followed beyond the frame
-constexpr double kSmooth = 8.0;    // px, sigma along a path out of a mask
-
-// The white of a map as ways along its middle, one line after the other.
-class Strokes {
- public:
-  explicit Strokes(const ScalarImage& map) : map_(map), depth_(depth_of(map)), drawn_(costs(map, depth_), map.width(), 1.0) {}
-
-  // Farthest first: the two ends farthest apart, then whatever is farther from all lines than the brush is wide.
-  std::vector<Path> lines() {
-    std::vector<Path> lines;
-    for (int first = unseen(); first != kNone; first = unseen()) {
-      const int one = farthest_from(first);
-      drawn_.start_at(one, one);
-      for (int end = farthest(); end != kNone; end = farthest()) {
-        const std::vector<int> way = drawn_.way(end);
-        Path line;
-        for (const int cell : way) line.push_back(point(cell));
-        for (const int cell : way) drawn_.start_at(cell, cell);
-        lines.push_back(smooth_polyline(line, kSmooth));
-      }
-    }
-    return lines;
-  }
-
- private:
-  static ScalarImage depth_of(const ScalarImage& map) {
-    Mask dark(map.size());
-    for (std::size_t i = 0; i < map.pixels().size(); ++i) dark.pixels()[i] = map.pixels()[i] < 0.5f ? 255 : 0;
-    return distance_to(dark);
-  }
-  static std::vector<double> costs(const ScalarImage& map, const ScalarImage& depth) {
-    std::vector<double> cost;
-    const double most = std::hypot(map.width(), map.height());
-    for (std::size_t i = 0; i < map.pixels().size(); ++i) {
-      const double d = std::min<double>(depth.pixels()[i], most);
-      cost.push_back(map.pixels()[i] < 0.5f ? std::numeric_limits<double>::infinity() : 1.0 + 16.0 / (d * d));
-    }
-    return cost;
-  }
-  Vec2 point(int cell) const { return {cell % map_.width(), cell / map_.width()}; }
-  int cells() const { return static_cast<int>(map_.pixels().size()); }
-  bool white(int cell) const { return !(map_.pixels()[static_cast<std::size_t>(cell)] < 0.5f); }
-
-  int unseen() const {
-    for (int cell = 0; cell < cells(); ++cell) {
-      if (white(cell) && !drawn_.reached(cell)) return cell;
-    }
-    return kNone;
-  }
-  // A stroke is a line's end only where the way to it is longer than the brush is wide.
-  int farthest() const {
-    int best = kNone;
-    double length = 0.0;
-    for (int cell = 0; cell < cells(); ++cell) {
-      if (!drawn_.reached(cell) || drawn_.length(cell) <= length) continue;
-      const double brush = depth_.pixels()[static_cast<std::size_t>(drawn_.source(cell))];
-      if (drawn_.length(cell) < 3.0 * brush + 12.0) continue;
-      best = cell;
-      length = drawn_.length(cell);
-    }
-    return best;
-  }
-  int farthest_from(int start) const {
-    Ways ways(costs(map_, depth_), map_.width(), 1.0);
-    ways.start_at(start, 0);
-    int best = start;
-    for (int cell = 0; cell < cells(); ++cell) {
-      if (ways.reached(cell) && ways.length(cell) > ways.length(best)) best = cell;
-    }
-    return best;
-  }
-
-  const ScalarImage& map_;
-  ScalarImage depth_;
-  Ways drawn_;
-};
+constexpr double kStep = 4.0;     // px between a path's points
+constexpr double kBeyond = 60.0;  // px a path is followed beyond the frame
 
 // A line out of a mask has no direction of its own: it enters the picture, from the end farther from the middle.
 Path entering(Path path, Size size) {
@@ -108,7 +31,9 @@ Path prolonged(Path path, Size size) {
     return std::min({p.x(), p.y(), size.width - 1.0 - p.x(), size.height - 1.0 - p.y()}) < 6.0;
   };
   const std::size_t back = std::min<std::size_t>(path.size() - 1, 12);
-  const auto beyond = [](const Vec2& end, const Vec2& before) { return Vec2(end + (end - before).stableNormalized() * kBeyond); };
+  const auto beyond = [](const Vec2& end, const Vec2& before) {
+    return Vec2(end + (end - before).stableNormalized() * kBeyond);
+  };
   const Vec2 start = beyond(path.front(), path[back]), end = beyond(path.back(), path[path.size() - 1 - back]);
   if (on_rim(path.back())) path.push_back(end);
   if (on_rim(path.front())) path.insert(path.begin(), start);
@@ -128,7 +53,8 @@ std::vector<Path> open_stretches(const Path& path, const Ground& ground, double 
     lost += ground.on_canvas(points[i]) ? kStep : 0.0;
     if (stretches.back().empty()) continue;
     if (!ground.blocked(points[i])) {
-      for (std::size_t j = i; j < points.size() && !ground.inside(points[j]) && (j - i) * kStep < kBeyond; ++j) stretches.back().push_back(points[j]);
+      for (std::size_t j = i; j < points.size() && !ground.inside(points[j]) && (j - i) * kStep < kBeyond; ++j)
+        stretches.back().push_back(points[j]);
     }
     stretches.emplace_back();
   }
@@ -139,12 +65,14 @@ std::vector<Path> open_stretches(const Path& path, const Ground& ground, double 
 // A tree holds no ring: the branch ends just before its own start.
 void open_ring(Path& path, double gap) {
   if ((path.front() - path.back()).norm() > gap) return;
-  while (path.size() > 3 && polyline_length(path) > 4.0 * gap && (path.front() - path.back()).norm() < gap) path.pop_back();
+  while (path.size() > 3 && polyline_length(path) > 4.0 * gap && (path.front() - path.back()).norm() < gap)
+    path.pop_back();
 }
 
 double nearest_on(const Path& path, const Vec2& point) {
   double best = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < path.size(); ++i) best = std::min(best, nearest_on_segment(point, path[i - 1], path[i]).distance);
+  for (std::size_t i = 1; i < path.size(); ++i)
+    best = std::min(best, nearest_on_segment(point, path[i - 1], path[i]).distance);
   return best;
 }
 
@@ -153,7 +81,8 @@ DrawnCourse take_next(std::vector<Path>& stretches, const std::vector<DrawnCours
   DrawnCourse next;
   for (std::size_t i = 0; i < stretches.size() && next.path.empty(); ++i) {
     for (int c = 0; c < static_cast<int>(courses.size()) && next.path.empty(); ++c) {
-      const double start = nearest_on(courses[c].path, stretches[i].front()), end = nearest_on(courses[c].path, stretches[i].back());
+      const double start = nearest_on(courses[c].path, stretches[i].front()),
+                   end = nearest_on(courses[c].path, stretches[i].back());
       if (std::min(start, end) > join) continue;
       if (end < start) std::reverse(stretches[i].begin(), stretches[i].end());
       next = {stretches[i], c};
@@ -173,7 +102,8 @@ std::vector<DrawnCourse> drawn_courses(const GrowthTarget& target, const Ground&
                                        const Monitor& monitor) {
   std::vector<Path> paths = target.guide_paths;
   if (!target.guide_map.empty()) {
-    for (const Path& line : Strokes(target.guide_map).lines()) paths.push_back(prolonged(entering(line, target.size), target.size));
+    for (const Path& line : mask_strokes(target.guide_map))
+      paths.push_back(prolonged(entering(line, target.size), target.size));
   }
   std::vector<Path> stretches;
   double all = 0.0, lost = 0.0;
@@ -183,14 +113,18 @@ std::vector<DrawnCourse> drawn_courses(const GrowthTarget& target, const Ground&
     for (Path& stretch : open_stretches(path, ground, least, lost)) stretches.push_back(std::move(stretch));
   }
   if (all > 0.0 && stretches.empty()) {
-    throw InputError("", "the guide lies where nothing can grow: off the canvas, on black or an obstacle, or where the photo has no "
-                         "branches (below a skyline, beyond a rim); draw a stroke of at least " + number_text(std::ceil(least)) +
-                         " px elsewhere");
+    throw InputError(
+        "",
+        "the guide lies where nothing can grow: off the canvas, on black or an obstacle, or where the photo has no "
+        "branches (below a skyline, beyond a rim); draw a stroke of at least " +
+            number_text(std::ceil(least)) + " px elsewhere");
   }
   if (lost > 0.1 * all) {
-    monitor.note(number_text(std::round(100.0 * lost / all)) + " % of the guide lies where nothing can grow and is left out");
+    monitor.note(number_text(std::round(100.0 * lost / all)) +
+                 " % of the guide lies where nothing can grow and is left out");
   }
-  std::stable_sort(stretches.begin(), stretches.end(), [](const Path& a, const Path& b) { return polyline_length(a) > polyline_length(b); });
+  std::stable_sort(stretches.begin(), stretches.end(),
+                   [](const Path& a, const Path& b) { return polyline_length(a) > polyline_length(b); });
   std::vector<DrawnCourse> courses;
   while (!stretches.empty()) {
     courses.push_back(take_next(stretches, courses, join));
