@@ -11,15 +11,16 @@
 namespace ramify {
 namespace {
 
-constexpr int kLooks = 8;            // unfilled cells of which the farthest is taken
+constexpr int kLooks = 8;  // unfilled cells of which the farthest is taken
 constexpr int kMostTries = 4000;
 constexpr int kMostFailures = 40;
 constexpr int kMostBans = 2;
-constexpr double kMostForks = 1.1;   // times the exemplar's, after which length is no reason for more branches
+constexpr double kMostForks = 1.1;  // times the exemplar's, after which length is no reason for more branches
 
 class Filler {
  public:
-  Filler(GrowthState& state, int most_order) : state_(state), most_order_(most_order), failures_(state.coverage.cells(), 0) {}
+  Filler(GrowthState& state, int most_order)
+      : state_(state), most_order_(most_order), failures_(state.coverage.cells(), 0) {}
 
   void run() {
     int failures = 0;
@@ -51,9 +52,9 @@ class Filler {
     for (int look = 0; look < kLooks; ++look) {
       const int cell = open[static_cast<std::size_t>(rng.discrete(weights))];
       const double reach = 4.0 * state_.spacing;
-      const double distance = state_.coverage.weight(cell) *
-                              state_.occupancy.index().nearest_rim(state_.coverage.center_of(cell), reach,
-                                                                   [](const Capsule&) { return true; });
+      const double distance =
+          state_.coverage.weight(cell) * state_.occupancy.index().nearest_rim(state_.coverage.center_of(cell), reach,
+                                                                              [](const Capsule&) { return true; });
       if (distance > farthest) {
         farthest = distance;
         best = cell;
@@ -62,30 +63,16 @@ class Filler {
     return best;
   }
 
-  // The nearest node a child could leave from, ahead rather than back, along directions the style likes.
+  // The nearest node, ahead rather than back, along directions the style likes.
   Errand nearest_start(const Vec2& goal) const {
-    Errand best;
-    double nearest = 1e300;
-    for (int b = 0; b < static_cast<int>(state_.branches.size()); ++b) {
-      const GrowingBranch& branch = state_.branches[b];
-      if (branch.order >= most_order_) continue;
-      for (int i = 2; i + 2 < branch.count(); ++i) {
-        const Vec2 way = goal - branch.points[i];
-        double distance = way.norm();
-        if (distance >= nearest) continue;
-        const double back = std::max(0.0, 0.3 - direction_of(tangent_at(branch, i)).dot(way) / (distance + 1e-9));
-        distance *= 1.0 + back;
-        const Headings& headings = state_.style.hierarchy.headings[std::min(branch.order + 1, kHeadingOrders - 1)];
-        const double most = *std::max_element(headings.share.begin(), headings.share.end());
-        const double share = headings.share[static_cast<std::size_t>(heading_bin(angle_of(way)))];
-        if (headings.strength >= 0.15) distance *= 1.0 + 2.0 * (1.0 - share / most);
-        if (distance >= nearest || fork_blocked(state_, branch, i, 0)) continue;
-        nearest = distance;
-        best.parent = b;
-        best.node = i;
-      }
-    }
-    return best;
+    const auto cost = [&](const GrowingBranch& branch, int node, const Vec2& way, double distance) {
+      const double back = std::max(0.0, 0.3 - direction_of(tangent_at(branch, node)).dot(way) / (distance + 1e-9));
+      const Headings& headings = state_.style.hierarchy.headings[std::min(branch.order + 1, kHeadingOrders - 1)];
+      const double most = *std::max_element(headings.share.begin(), headings.share.end());
+      const double share = headings.share[static_cast<std::size_t>(heading_bin(angle_of(way)))];
+      return distance * (1.0 + back) * (headings.strength >= 0.15 ? 1.0 + 2.0 * (1.0 - share / most) : 1.0);
+    };
+    return cheapest_start(state_, goal, most_order_, 1e300, cost, [](const Vec2&) { return true; });
   }
 
   bool send_to(int cell, Rng& rng) {
@@ -119,7 +106,7 @@ class Filler {
 void fill_wanted(GrowthState& state, int most_order) {
   const bool any_child = std::any_of(state.style.hierarchy.branches.begin(), state.style.hierarchy.branches.end(),
                                      [](const SourceBranch& b) { return b.parent != kNone; });
-  if (any_child ) Filler(state, most_order).run();
+  if (any_child) Filler(state, most_order).run();
 }
 
 }  // namespace ramify

@@ -17,14 +17,14 @@ namespace ramify {
 namespace {
 
 constexpr double kClosed = std::numeric_limits<double>::infinity();
-constexpr double kEnough = 0.08;       // painted value: what lacks less is left, and a tenth of what is wanted
-constexpr double kBright = 0.5;        // of the brightest: where stems start and end
-constexpr double kDetour = 1.15;       // a way longer than this times the straight one is followed as a course
-constexpr int kMostFailures = 4;       // at one cell
-constexpr double kApart = 0.6;         // of the spacing asked for there: nearer to a branch nothing is sent
-constexpr double kSurplus = 0.05;      // painted value: what is beyond it is trimmed
+constexpr double kEnough = 0.08;   // painted value: what lacks less is left, and a tenth of what is wanted
+constexpr double kBright = 0.5;    // of the brightest: where stems start and end
+constexpr double kDetour = 1.15;   // a way longer than this times the straight one is followed as a course
+constexpr int kMostFailures = 4;   // at one cell
+constexpr double kApart = 0.6;     // of the spacing asked for there: nearer to a branch nothing is sent
+constexpr double kSurplus = 0.05;  // painted value: what is beyond it is trimmed
 constexpr int kStemTries = 6;
-constexpr double kThickest = 0.12;     // radius of a stem over the half width of the stroke it runs in
+constexpr double kThickest = 0.12;  // radius of a stem over the half width of the stroke it runs in
 
 class PaintedFiller {
  public:
@@ -69,7 +69,8 @@ class PaintedFiller {
       for (const Fork& fork : branch.forks) keep = std::max(keep, fork.node + 2);
       const int before = branch.count();
       while (branch.count() > std::max(1, keep) && surplus(branch.points.back())) drop_tip(branch);
-      const bool stump = branch.forks.empty() && branch.parent != kNone && branch.arc(state_.style.step) < 4.0 * branch.radii.front();
+      const bool stump =
+          branch.forks.empty() && branch.parent != kNone && branch.arc(state_.style.step) < 4.0 * branch.radii.front();
       if (branch.count() == before || branch.count() == 1 || stump) {
         if (branch.count() < before) drop(b);
         continue;
@@ -97,7 +98,8 @@ class PaintedFiller {
     while (branch.count() > 1) drop_tip(branch);
     branch.grown = false;
     std::vector<Fork>& forks = state_.branches[branch.parent].forks;
-    const auto own = std::find_if(forks.begin(), forks.end(), [&](const Fork& f) { return f.node == branch.parent_node; });
+    const auto own =
+        std::find_if(forks.begin(), forks.end(), [&](const Fork& f) { return f.node == branch.parent_node; });
     if (own != forks.end()) forks.erase(own);
   }
 
@@ -113,7 +115,8 @@ class PaintedFiller {
     std::vector<double> depth;
     for (int c = 0; c < demand_.cells(); ++c) {
       const Vec2 p = demand_.center_of(c);
-      depth.push_back(std::min<double>(most, distance.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())))));
+      depth.push_back(std::min<double>(
+          most, distance.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())))));
     }
     return depth;
   }
@@ -161,7 +164,8 @@ class PaintedFiller {
       const double lack = std::min(demand_.lack(c), wanted);
       // Where half as much is wanted branches stand twice as far apart.
       if (lack < kEnough + 0.1 * wanted || ways_.length(c) * wanted < kApart * state_.spacing) continue;
-      const double need = lack * (ways_.length(c) + 0.5 * state_.spacing) * std::min(1.0, depth(c) / (0.5 * state_.spacing));
+      const double need =
+          lack * (ways_.length(c) + 0.5 * state_.spacing) * std::min(1.0, depth(c) / (0.5 * state_.spacing));
       if (need > most) most = need, best = c;
     }
     return best;
@@ -178,24 +182,12 @@ class PaintedFiller {
   // The node a child would leave from for the goal: near, in sight, and ahead rather than back.
   Errand start_for(const Vec2& goal, double farthest, Rng& rng) const {
     const double noise = failures_[static_cast<std::size_t>(demand_.cell_at(goal))] > 0 ? 0.5 : 0.0;
-    Errand best;
-    double least = farthest;
-    for (int b = 0; b < static_cast<int>(state_.branches.size()); ++b) {
-      const GrowingBranch& branch = state_.branches[b];
-      if (branch.order >= most_order_) continue;
-      for (int i = 2; i + 2 < branch.count(); ++i) {
-        const Vec2 way = goal - branch.points[i];
-        double distance = way.norm();
-        if (distance >= least) continue;
-        const double cosine = direction_of(tangent_at(branch, i)).dot(way) / (distance + 1e-9);
-        distance *= 1.0 + 0.8 * std::max(0.0, 0.7 - cosine) + noise * rng.uniform();
-        if (distance >= least || fork_blocked(state_, branch, i, 0) || !sees(branch.points[i], goal)) continue;
-        least = distance;
-        best.parent = b;
-        best.node = i;
-      }
-    }
-    return best;
+    const auto cost = [&](const GrowingBranch& branch, int node, const Vec2& way, double distance) {
+      const double cosine = direction_of(tangent_at(branch, node)).dot(way) / (distance + 1e-9);
+      return distance * (1.0 + 0.8 * std::max(0.0, 0.7 - cosine) + noise * rng.uniform());
+    };
+    return cheapest_start(state_, goal, most_order_, farthest, cost,
+                          [&](const Vec2& from) { return sees(from, goal); });
   }
 
   std::vector<Vec2> path_to(int cell) const {
@@ -238,8 +230,8 @@ class PaintedFiller {
     return cells;
   }
 
-  // Where a stem of the island begins: bright, inside the stroke, and back along the exemplar's main direction; where it
-  // has none, at the end nearest to the frame.
+  // Where a stem of the island begins: bright, inside the stroke, and back along the exemplar's main direction; where
+  // it has none, at the end nearest to the frame.
   int stem_start(const std::vector<int>& cells, double bright) const {
     const Headings& headings = state_.style.hierarchy.headings[0];
     Vec2 main = Vec2::Zero();
@@ -314,7 +306,8 @@ class PaintedFiller {
       if (follows) plan.followed = number;
       const double ahead = std::min(0.5 * course.length(), 2.0 * state_.style.feature_size);
       plan.position = course.point_at(0.1 * attempt * ahead);
-      plan.direction = follows ? course.direction_at(0.1 * attempt * ahead, ahead) : angle_of(path.back() - path.front());
+      plan.direction =
+          follows ? course.direction_at(0.1 * attempt * ahead, ahead) : angle_of(path.back() - path.front());
       plan.length = (follows ? 1.2 : 1.0) * course.length();
       const double own = state_.style.bending.smooth_radius[state_.style.bending.first[plan.source]];
       const double room = std::max(kThickest * half_width, 2.0 * state_.style.hierarchy.least_radius);
@@ -335,6 +328,8 @@ class PaintedFiller {
 
 }  // namespace
 
-void fill_painted(GrowthState& state, int most_order) { PaintedFiller(state, most_order).run(); }
+void fill_painted(GrowthState& state, int most_order) {
+  PaintedFiller(state, most_order).run();
+}
 
 }  // namespace ramify

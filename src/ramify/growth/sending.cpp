@@ -20,7 +20,8 @@ std::vector<int> templates_for(const GrowthState& state, double parent_radius, d
   for (int b = 0; b < bending.branch_count(); ++b) {
     const SourceBranch& source = state.style.hierarchy.branches[b];
     if (source.parent == kNone) continue;
-    const double width = std::log(bending.smooth_radius[bending.first[source.parent] + source.parent_vertex] / parent_radius);
+    const double width =
+        std::log(bending.smooth_radius[bending.first[source.parent] + source.parent_vertex] / parent_radius);
     const double length = std::log((bending.length_of(b) - 1) * bending.step / std::max(3.0 * bending.step, wanted));
     ranked.emplace_back(width * width + length * length + 0.1 * state.template_uses[b] + 0.3 * rng.normal(), b);
   }
@@ -31,6 +32,27 @@ std::vector<int> templates_for(const GrowthState& state, double parent_radius, d
 }
 
 }  // namespace
+
+Errand cheapest_start(const GrowthState& state, const Vec2& goal, int most_order, double most,
+                      const std::function<double(const GrowingBranch&, int, const Vec2&, double)>& cost,
+                      const std::function<bool(const Vec2&)>& allowed) {
+  Errand best;
+  for (int b = 0; b < static_cast<int>(state.branches.size()); ++b) {
+    const GrowingBranch& branch = state.branches[b];
+    if (branch.order >= most_order) continue;
+    for (int i = 2; i + 2 < branch.count(); ++i) {
+      const Vec2 way = goal - branch.points[i];
+      const double distance = way.norm();
+      if (distance >= most) continue;
+      const double dear = cost(branch, i, way, distance);
+      if (dear >= most || fork_blocked(state, branch, i, 0) || !allowed(branch.points[i])) continue;
+      most = dear;
+      best.parent = b;
+      best.node = i;
+    }
+  }
+  return best;
+}
 
 int send_branch(GrowthState& state, const Errand& errand, Rng& rng) {
   const GrowingBranch& parent = state.branches[errand.parent];
@@ -49,7 +71,8 @@ int send_branch(GrowthState& state, const Errand& errand, Rng& rng) {
     plan.width_factor = i < sources.size() ? 1.0 : kThin;
     plan.mirrored = (state.style.hierarchy.branches[source].start_angle > 0.0) != clockwise;
     if (plan.mirrored && !state.style.mirror) continue;
-    if (errand.followed != kNone) plan.length_factor = errand.most_length / ((state.style.bending.length_of(source) - 1) * state.style.step);
+    if (errand.followed != kNone)
+      plan.length_factor = errand.most_length / ((state.style.bending.length_of(source) - 1) * state.style.step);
     const int child = place_child(state, plan, rng);
     if (child != kNone) return child;
   }
