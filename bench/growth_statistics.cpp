@@ -24,20 +24,20 @@ namespace {
 
 using namespace ramify;
 
-constexpr double kMostRateError = 0.2;    // furcations per length, of the exemplar's
-constexpr double kMostSpreads = 2.0;      // histogram distance, in the exemplar's own spread
-constexpr double kMostTurn = 25.0;        // deg, per order, of the seeds' mean
-constexpr double kHeadingCounts = 0.3;    // strength from which an order has a direction (PICTURES 1)
-constexpr double kHeadingLength = 0.02;   // share of the length an order needs to be judged
-constexpr int kLongEnough = 30;           // m: exemplars with fewer nodes must repeat themselves
+constexpr double kMostRateError = 0.2;  // furcations per length, of the exemplar's
+constexpr double kMostSpreads = 2.0;    // histogram distance, in the exemplar's own spread
+constexpr double kMostTurn = 25.0;      // deg, per order, of the seeds' mean
+constexpr double kHeadingCounts = 0.3;  // strength from which an order has a direction (PICTURES 1)
+constexpr double kRayleigh = 3.0;       // n R^2 beyond which a direction is no chance, p < 0.05 (Rayleigh's test)
+constexpr int kLongEnough = 30;         // m: exemplars with fewer nodes must repeat themselves
 
 // Distances of one grown skeleton, as ratios to what is allowed.
 struct OneSeed {
-  double rate = 0.0;     // furcations per length over the exemplar's
-  double length = 0.0;   // over the exemplar's
-  double angle = 0.0;    // total variation over the exemplar's spread
+  double rate = 0.0;    // furcations per length over the exemplar's
+  double length = 0.0;  // over the exemplar's
+  double angle = 0.0;   // total variation over the exemplar's spread
   double radius = 0.0;
-  double run = 0.0;      // vertices, median verbatim run
+  double run = 0.0;  // vertices, median verbatim run
   int crossings = 0;
   std::vector<Vec2> orders;  // px, sum of the edges of each order
 };
@@ -45,7 +45,7 @@ struct OneSeed {
 struct Row {
   std::string name;
   std::vector<OneSeed> seeds;
-  double least_run = 0.0;   // 3 m
+  double least_run = 0.0;  // 3 m
   bool long_enough = false;
   std::vector<std::pair<int, double>> turns;  // order, deg between the exemplar's mean direction and the seeds'
 };
@@ -54,13 +54,30 @@ std::vector<Vec2> order_sums(const Skeleton& skeleton) {
   std::vector<Vec2> sums;
   for (const Node& node : skeleton.nodes()) {
     if (node.parent == kNone) continue;
-    if (node.order >= static_cast<int>(sums.size())) sums.resize(static_cast<std::size_t>(node.order) + 1, Vec2::Zero());
+    if (node.order >= static_cast<int>(sums.size()))
+      sums.resize(static_cast<std::size_t>(node.order) + 1, Vec2::Zero());
     sums[static_cast<std::size_t>(node.order)] += node.xy() - skeleton[node.parent].xy();
   }
   return sums;
 }
 
-double spreads(const std::vector<std::vector<double>>& exemplar, const std::vector<std::vector<double>>& grown, double spread) {
+// Whether the exemplar's branches of an order have a direction in common. Roots stand where the exemplar's do, so
+// theirs always counts; of the others there must be enough: n = (sum of lengths)^2 / sum of squared lengths branches as
+// they count.
+bool has_direction(const Skeleton& exemplar, const SkeletonStatistics& own, int order) {
+  const double strength = own.order_headings[static_cast<std::size_t>(order)].strength;
+  double lengths = 0.0, squares = 0.0;
+  for (const Branch& branch : branch_tree(exemplar).branches) {
+    if (branch.order != order) continue;
+    lengths += branch.length;
+    squares += branch.length * branch.length;
+  }
+  if (strength < kHeadingCounts || !(squares > 0.0)) return false;
+  return order == 0 || lengths * lengths / squares * strength * strength > kRayleigh;
+}
+
+double spreads(const std::vector<std::vector<double>>& exemplar, const std::vector<std::vector<double>>& grown,
+               double spread) {
   const HistogramPair pair = make_histograms(pooled(exemplar), pooled(grown));
   return total_variation(pair.first, pair.second) / std::max(1e-9, spread);
 }
@@ -100,7 +117,7 @@ Row measure(const std::string& name, int seeds, const std::string& folder) {
     one.orders = order_sums(grown);
   });
   for (std::size_t o = 0; o < own.order_headings.size(); ++o) {
-    if (own.order_headings[o].strength < kHeadingCounts || own.order_lengths[o] < kHeadingLength * own.total_length) continue;
+    if (!has_direction(exemplar, own, static_cast<int>(o))) continue;
     Vec2 sum = Vec2::Zero();
     for (const OneSeed& one : row.seeds) sum += o < one.orders.size() ? one.orders[o] : Vec2::Zero();
     const double turn = std::abs(wrap_angle(angle_of(sum) - own.order_headings[o].direction)) * 180.0 / kPi;
@@ -123,7 +140,9 @@ MeanAndWorst over_seeds(const Row& row, double OneSeed::*figure, double ideal) {
 }
 
 void print(const Row& row) {
-  const auto cell = [](const MeanAndWorst& m, bool missed) { std::printf(" %6.2f (%5.2f)%c", m.mean, m.worst, missed ? '!' : ' '); };
+  const auto cell = [](const MeanAndWorst& m, bool missed) {
+    std::printf(" %6.2f (%5.2f)%c", m.mean, m.worst, missed ? '!' : ' ');
+  };
   std::printf("%-30s", row.name.c_str());
   const MeanAndWorst rate = over_seeds(row, &OneSeed::rate, 1.0);
   cell(rate, std::abs(rate.mean - 1.0) > kMostRateError);
@@ -135,10 +154,14 @@ void print(const Row& row) {
   const MeanAndWorst run = over_seeds(row, &OneSeed::run, 0.0);
   cell(run, row.long_enough && run.mean > row.least_run);
   int crossings = 0;
-  for (const OneSeed& one : row.seeds) crossings += one.crossings;
+  std::string crossed;
+  for (std::size_t s = 0; s < row.seeds.size(); ++s) {
+    crossings += row.seeds[s].crossings;
+    if (row.seeds[s].crossings > 0) crossed += " seed " + std::to_string(s + 1);
+  }
   std::printf(" %9d%c ", crossings, crossings > 0 ? '!' : ' ');
   for (const auto& [order, turn] : row.turns) std::printf(" %d:%.0f%s", order, turn, turn > kMostTurn ? "!" : "");
-  std::printf("\n");
+  std::printf("%s\n", crossed.empty() ? "" : ("  crossed:" + crossed).c_str());
   std::fflush(stdout);
 }
 
@@ -161,10 +184,12 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "usage: growth_statistics [--seeds N] [--save FOLDER] EXEMPLAR...\n");
     return 2;
   }
-  std::printf("mean (worst) of %d seeds; targets: rate within 20 %%, angle and radius at most 2 spreads, run at most 3 m, no\n"
-              "crossings, mean direction per order within 25 deg\n", seeds);
-  std::printf("%-30s %-15s %-15s %-15s %-15s %-15s %-10s %s\n", "exemplar", " furcation rate", "angle spreads", "radius spreads",
-              "length", "verbatim run", "crossings", "order:deg off");
+  std::printf(
+      "mean (worst) of %d seeds; targets: rate within 20 %%, angle and radius at most 2 spreads, run at most 3 m, no\n"
+      "crossings, mean direction per order within 25 deg\n",
+      seeds);
+  std::printf("%-30s %-15s %-15s %-15s %-15s %-15s %-10s %s\n", "exemplar", " furcation rate", "angle spreads",
+              "radius spreads", "length", "verbatim run", "crossings", "order:deg off");
   try {
     for (const std::string& name : names) print(measure(name, seeds, folder));
   } catch (const std::exception& error) {

@@ -5,6 +5,10 @@
 
 #include "ramify/core/parallel.h"
 #include "ramify/growth/grow.h"
+#include "ramify/growth/joining.h"
+#include "ramify/growth/mask_strokes.h"
+#include "ramify/growth/occupancy.h"
+#include "ramify/growth/thickness.h"
 #include "ramify/skeleton/branches.h"
 #include "support/skeleton_checks.h"
 #include "support/wavy_tree.h"
@@ -21,6 +25,15 @@ GrowthTarget canvas(int width, int height) {
   GrowthTarget target;
   target.size = {width, height};
   return target;
+}
+
+Extension extension_of(std::vector<Vec2> points, double radius) {
+  Extension extension;
+  extension.radii.assign(points.size(), radius);
+  extension.turns.assign(points.size(), 0.0);
+  extension.copied.assign(points.size(), 0);
+  extension.points = std::move(points);
+  return extension;
 }
 
 double length_of(const Skeleton& s) {
@@ -61,6 +74,53 @@ TEST_CASE("grown branches never cross") {
   }
 }
 
+TEST_CASE("a branch that ends on another does not turn back over its own end") {
+  const GrowthTarget target = canvas(200, 200);
+  const Ground ground(target);
+  Occupancy occupancy(ground, 8.0, {}, 4.0);
+  GrowingBranch wall, tip;
+  for (int i = 0; i < 20; ++i) {
+    wall.points.emplace_back(100.0, 20.0 + 4.0 * i);
+    wall.radii.push_back(7.0);
+  }
+  tip.points = {{73.0, 60.0}, {77.0, 60.0}, {81.0, 60.0}, {85.0, 60.0}, {89.0, 59.0}};
+  tip.radii.assign(tip.points.size(), 6.0);
+  for (int i = 1; i < wall.count(); ++i) occupancy.add_edge(wall, 0, i);
+  for (int i = 1; i < tip.count(); ++i) occupancy.add_edge(tip, 1, i);
+  const std::vector<GrowingBranch> branches{wall, tip};
+  const Capsule ahead{wall.points[9], wall.points[10], 7.0, 7.0, 0, 9};
+  const Capsule behind{{70.0, 40.0}, {70.0, 80.0}, 7.0, 7.0, 2, 9};  // wide as well: met, though it lies at the back
+  Extension extension = extension_of({{92.0, 57.0}, {95.0, 56.0}}, 6.0);
+  REQUIRE(end_on(ahead, 1, occupancy, ground, branches, 1, extension));
+  CHECK(extension.stop == GrowthStop::Join);
+  CHECK(100.0 - extension.points.back().x() == Approx(0.6 * 7.0).margin(0.3));  // inside the rim, short of the axis
+  for (const int at : {0, 1}) {
+    Extension turned = extension_of({{92.0, 57.0}, {95.0, 56.0}}, 6.0);
+    CHECK_FALSE(end_on(behind, at, occupancy, ground, branches, 1, turned));
+    CHECK(turned.stop == GrowthStop::None);
+  }
+}
+
+TEST_CASE("a child on a thick parent cannot turn back across the link it hangs on") {
+  const GrowthTarget target = canvas(200, 200);
+  const Ground ground(target);
+  Occupancy occupancy(ground, 30.0, {}, 4.0);
+  GrowingBranch parent, child;
+  for (int i = 0; i < 40; ++i) {
+    parent.points.emplace_back(20.0 + 4.0 * i, 60.0);
+    parent.radii.push_back(30.0);
+  }
+  child.parent = 0;
+  child.parent_node = 20;
+  child.points = {{100.0, 90.5}};
+  child.radii = {3.0};
+  for (int i = 1; i < parent.count(); ++i) occupancy.add_edge(parent, 0, i);
+  occupancy.add_link(parent.points[20], child.points.front(), 1);
+  const std::vector<GrowingBranch> branches{parent, child};
+  CHECK_FALSE(occupancy.meet(branches, 1, extension_of({{102.0, 94.0}, {104.0, 97.5}, {106.0, 101.0}}, 3.0)).blocked);
+  CHECK(occupancy.meet(branches, 1, extension_of({{103.0, 88.0}, {103.0, 84.0}, {98.0, 84.0}}, 3.0)).blocked);
+}
+
 TEST_CASE("as much length grows per area as the exemplar has") {
   const test::WavyTree tree;
   const Style style = style_of(tree, 1);
@@ -68,7 +128,8 @@ TEST_CASE("as much length grows per area as the exemplar has") {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
       GrowOptions options;
       options.length = wanted;
-      const Skeleton grown = grow_from_style(style, canvas(tree.size.width, tree.size.height), options, Rng(seed), Monitor{});
+      const Skeleton grown =
+          grow_from_style(style, canvas(tree.size.width, tree.size.height), options, Rng(seed), Monitor{});
       CHECK(length_of(grown) == Approx(wanted * style.hierarchy.total_length).epsilon(0.15));
     }
   }
@@ -138,9 +199,9 @@ namespace {
 
 struct DensityFigures {
   int black_nodes = 0;
-  double bright_length = 0.0;      // share of the length where the map is above one half
-  double rank_correlation = 0.0;   // of map and length over 64 px cells
-  double white_reached = 0.0;      // share of the white within 2 rho of a branch
+  double bright_length = 0.0;     // share of the length where the map is above one half
+  double rank_correlation = 0.0;  // of map and length over 64 px cells
+  double white_reached = 0.0;     // share of the white within 2 rho of a branch
 };
 
 std::vector<double> ranks_of(const std::vector<double>& values) {
@@ -174,7 +235,8 @@ DensityFigures density_figures(const Skeleton& s, const ScalarImage& map, double
   }
   double all = 0.0, bright = 0.0;
   for (const Node& node : s.nodes()) {
-    const int x = static_cast<int>(std::lround(node.position.x())), y = static_cast<int>(std::lround(node.position.y()));
+    const int x = static_cast<int>(std::lround(node.position.x())),
+              y = static_cast<int>(std::lround(node.position.y()));
     figures.black_nodes += map.contains(x, y) && map(x, y) <= 8.0f / 255.0f;
     if (node.parent == kNone) continue;
     const double edge = (node.xy() - s[node.parent].xy()).norm();
@@ -201,7 +263,9 @@ DensityFigures density_figures(const Skeleton& s, const ScalarImage& map, double
   return figures;
 }
 
-bool in_box(int x, int y, int x0, int y0, int x1, int y1) { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+bool in_box(int x, int y, int x0, int y0, int x1, int y1) {
+  return x >= x0 && x < x1 && y >= y0 && y < y1;
+}
 
 // A letter R, 500 px high, of bars and a bow.
 ScalarImage letter_r() {
@@ -247,7 +311,8 @@ TEST_CASE("a soft map is followed in rank") {
   GrowthTarget target = canvas(704, 512);
   target.density = ScalarImage(704, 512);
   for (int y = 0; y < 512; ++y) {
-    for (int x = 0; x < 704; ++x) target.density(x, y) = static_cast<float>(x / 704.0 * (0.6 + 0.4 * std::sin(y / 90.0)));
+    for (int x = 0; x < 704; ++x)
+      target.density(x, y) = static_cast<float>(x / 704.0 * (0.6 + 0.4 * std::sin(y / 90.0)));
   }
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     const Skeleton grown = grow_from_style(style, target, GrowOptions{}, Rng(seed), Monitor{});
@@ -295,6 +360,46 @@ TEST_CASE("a guided main branch stays in its valley") {
   }
 }
 
+TEST_CASE("a ring painted in a mask is one line all the way round") {
+  const Vec2 center(150, 140);
+  ScalarImage map(300, 280, 0.0f);
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const double r = (Vec2(x, y) - center).norm();
+      map(x, y) = std::abs(r - 90.0) < 6.0 ? 1.0f : 0.0f;
+    }
+  }
+  for (int x = 60; x < 64; ++x) map(x, 140) = 0.0f;  // a speck within the stroke
+  const std::vector<std::vector<Vec2>> lines = mask_strokes(map);
+  REQUIRE(lines.size() == 1);
+  double turned = 0.0;
+  for (std::size_t i = 1; i < lines[0].size(); ++i) {
+    CHECK(std::abs((lines[0][i] - center).norm() - 90.0) < 6.0);  // within the stroke
+    turned += wrap_angle(angle_of(lines[0][i] - center) - angle_of(lines[0][i - 1] - center));
+  }
+  CHECK(std::abs(turned) > 2.0 * kPi * 0.93);
+}
+
+TEST_CASE("grown radii are spread as the exemplar's and keep their order") {
+  test::WavyTree tree = dense_tree();
+  const Style style = style_of(tree, 21);
+  const Skeleton grown = grow_from_style(style, canvas(600, 400), GrowOptions{}, Rng(4), Monitor{});
+  std::vector<double> own = style.bending.radius, radii;
+  for (const Node& node : grown.nodes()) radii.push_back(node.radius);
+  std::sort(own.begin(), own.end());
+  std::sort(radii.begin(), radii.end());
+  for (const double share : {0.1, 0.25, 0.5, 0.75, 0.9}) {
+    const auto at = [&](const std::vector<double>& values) {
+      return values[static_cast<std::size_t>(share * (values.size() - 1.0))];
+    };
+    INFO("share " << share);
+    CHECK(at(radii) == Approx(at(own)).epsilon(0.1));
+  }
+  CHECK(at_same_share({1, 2, 3, 4, 5}, {10, 20, 30, 40, 50}, 3.0) == Approx(30.0));
+  CHECK(at_same_share({1, 1, 1, 1}, {10, 20, 30}, 1.0) == Approx(20.0));
+  CHECK(at_same_share({1, 2}, {10, 20}, 9.0) == Approx(20.0));
+}
+
 TEST_CASE("grown statistics are the exemplar's") {
   const Style style = style_of({}, 15);
   double forks = 0.0, length = 0.0;
@@ -318,7 +423,8 @@ TEST_CASE("roots that start from one place stay roots there") {
   for (int spoke = 0; spoke < 5; ++spoke) {
     const Vec2 along = direction_of(2.0 * kPi * spoke / 5.0 + 0.2);
     for (int i = 0; i < 60; ++i) {
-      const Vec2 p = Vec2(250, 250) + along * (4.0 + 3.0 * i) + perpendicular(along) * (4.0 * std::sin(0.2 * i + spoke));
+      const Vec2 p =
+          Vec2(250, 250) + along * (4.0 + 3.0 * i) + perpendicular(along) * (4.0 * std::sin(0.2 * i + spoke));
       Node node;
       node.position = Vec3(p.x(), p.y(), 0.0);
       node.radius = 3.0 - 0.03 * i;
@@ -343,9 +449,9 @@ TEST_CASE("roots that start from one place stay roots there") {
 TEST_CASE("every flag back to the paper changes the growth") {
   const Style style = style_of({}, 16);
   const Skeleton plain = grow_from_style(style, canvas(600, 400), GrowOptions{}, Rng(3), Monitor{});
-  for (bool GrowOptions::*flag : {&GrowOptions::raw_distance, &GrowOptions::radius_histogram, &GrowOptions::raster_density,
-                                  &GrowOptions::parent_first, &GrowOptions::copy_stem, &GrowOptions::free_direction,
-                                  &GrowOptions::free_radius, &GrowOptions::paper_exact}) {
+  for (bool GrowOptions::*flag : {&GrowOptions::raw_distance, &GrowOptions::radius_histogram,
+                                  &GrowOptions::raster_density, &GrowOptions::parent_first, &GrowOptions::copy_stem,
+                                  &GrowOptions::free_direction, &GrowOptions::free_radius, &GrowOptions::paper_exact}) {
     GrowOptions options;
     options.*flag = true;
     const Skeleton grown = grow_from_style(style, canvas(600, 400), options, Rng(3), Monitor{});
@@ -381,7 +487,8 @@ TEST_CASE("a root on a landmark stays where the kept ground has it") {
   target.kept = KeptGround{1.05, Vec2(7.0, -3.0)};
   const Vec2 wanted = 1.05 * style.bending.point.front() + Vec2(7.0, -3.0);
   for (int seed = 1; seed <= 4; ++seed) {
-    const Skeleton grown = grow_from_style(style, target, GrowOptions{}, Rng(static_cast<std::uint64_t>(seed)), Monitor{});
+    const Skeleton grown =
+        grow_from_style(style, target, GrowOptions{}, Rng(static_cast<std::uint64_t>(seed)), Monitor{});
     double nearest = 1e9;
     for (const Node& node : grown.nodes()) nearest = std::min(nearest, (node.xy() - wanted).norm());
     CHECK(nearest < 1e-6);

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "ramify/geometry/segment.h"
 #include "ramify/growth/candidates.h"
+#include "ramify/growth/joining.h"
 #include "ramify/growth/raster_density.h"
 
 namespace ramify {
@@ -15,7 +15,6 @@ namespace {
 constexpr int kBest = 24;              // candidates that are tested (PICTURES 12.2-8)
 constexpr double kEpsilon = 1e-3;      // of the paper's Q / (D + epsilon)
 constexpr double kDensityFloor = 0.1;  // the same for mean densities (12.2-8: not separable from the maximum)
-constexpr double kJoinAngle = 35.0 * kPi / 180.0;
 
 bool wants_join(const GrowthState& state, const GrowingBranch& branch) {
   return state.style.hierarchy.branches[branch.source].end == BranchEnd::Join && !state.options.paper_exact;
@@ -104,51 +103,20 @@ class Stepper {
     if (!hit.blocked) return true;
     if (hit.capsule == kNone || !joining) return false;
     const Capsule& target = state_.occupancy.index()[hit.capsule];
-    return !related(state_.branches, number_, target.owner) && end_on(extension, hit.point, target);
-  }
-
-  // Ends the extension inside the target's rim, short of its axis; false at a grazing angle.
-  bool end_on(Extension& extension, int at, const Capsule& target) const {
-    const Vec2 before = at > 0 ? extension.points[at - 1] : self().points.back();
-    const Vec2 edge = target.b - target.a;
-    double angle = std::abs(wrap_angle(angle_of(extension.points[at] - before) - angle_of(edge)));
-    angle = std::min(angle, kPi - angle);
-    if (angle < kJoinAngle) return false;
-    const PointOnSegment foot = nearest_on_segment(extension.points[at], target.a, target.b);
-    const Vec2 way = target.a + edge * foot.fraction - before;
-    const double back = 0.6 * std::min(target.radius_a, target.radius_b);
-    if (way.norm() <= back + 0.5) return false;
-    Extension cut;
-    cut.points.assign(extension.points.begin(), extension.points.begin() + at);
-    cut.points.push_back(before + way * ((way.norm() - back) / way.norm()));
-    // The last stretch may run past other branches or along this one: it must meet the target alone.
-    const Vec2 end = cut.points.back();
-    bool clear = true;
-    state_.occupancy.index().visit_box(before.cwiseMin(end) - Vec2::Constant(2.0), before.cwiseMax(end) + Vec2::Constant(2.0),
-                                       [&](int number) {
-                                         const Capsule& other = state_.occupancy.index()[number];
-                                         if (other.owner == number_ && self().count() - other.place < 4) return true;
-                                         clear = segment_distance(before, end, other.a, other.b) > 0.25;
-                                         return clear;
-                                       });
-    if (!clear || state_.ground.blocked(end)) return false;
-    const auto keep = [&](auto& values) { values.resize(static_cast<std::size_t>(at) + 1); };
-    keep(extension.radii);
-    keep(extension.turns);
-    keep(extension.copied);
-    extension.points = cut.points;
-    extension.stop = GrowthStop::Join;
-    return true;
+    return !related(state_.branches, number_, target.owner) &&
+           end_on(target, hit.point, state_.occupancy, state_.ground, state_.branches, number_, extension);
   }
 
   // Density, free space, painted map and guide along the extension and beyond it.
   double surroundings(const Extension& extension) const {
     const GrowingBranch& branch = self();
     const Vec2 from = branch.points.back(), to = extension.points.back();
-    const Vec2 along = (to - from).norm() > 1e-9 ? Vec2((to - from).normalized()) : direction_of(direction_at(branch, branch.count() - 1));
+    const Vec2 along = (to - from).norm() > 1e-9 ? Vec2((to - from).normalized())
+                                                 : direction_of(direction_at(branch, branch.count() - 1));
     const double reach = 0.5 * static_cast<double>(extension.points.size()) * state_.style.step;
     const int beyond = branch.count() + static_cast<int>(extension.points.size());
-    if (state_.options.raster_density) return -std::log(raster_maximum(state_, number_, from, along, 6.0 * reach) + kEpsilon);
+    if (state_.options.raster_density)
+      return -std::log(raster_maximum(state_, number_, from, along, 6.0 * reach) + kEpsilon);
     const bool joining = wants_join(state_, branch) && branch.arc(state_.style.step) > 0.5 * branch.length;
     double density = 0.0, free = 0.0, wanted = 0.0;
     int densities = 0, places = 0;
@@ -177,7 +145,8 @@ class Stepper {
     double sum = 0.0;
     for (const Vec2& point : extension.points) sum += course.value(point);
     const Vec2 from = self().points.back();
-    const double ahead = state_.progress(self()) + 2.0 * static_cast<double>(extension.points.size()) * state_.style.step;
+    const double ahead =
+        state_.progress(self()) + 2.0 * static_cast<double>(extension.points.size()) * state_.style.step;
     const double wanted = angle_of(course.point_at(ahead) - from);
     const double turn = 1.0 - std::cos(angle_of(extension.points.back() - from) - wanted);
     return -std::log(sum / static_cast<double>(extension.points.size()) + kEpsilon) - 4.0 * turn;
@@ -230,8 +199,8 @@ bool overfull(const GrowthState& state, const GrowingBranch& branch) {
 
 }  // namespace
 
-// Ends made by growth alone fade as the exemplar's tips do. A wide branch that was stopped short needs more way than they
-// and comes down to the exemplar's thinnest: else rivers end blunt inland.
+// Ends made by growth alone fade as the exemplar's tips do. A wide branch that was stopped short needs more way than
+// they and comes down to the exemplar's thinnest: else rivers end blunt inland.
 void taper_tip(GrowthState& state, int number) {
   constexpr double kWay = 8.0;   // radii
   constexpr double kWide = 8.0;  // times the thinnest
@@ -240,7 +209,8 @@ void taper_tip(GrowthState& state, int number) {
   const Hierarchy& learnt = state.style.hierarchy;
   const double radius = branch.radii.back();
   const bool wide = radius > kWide * learnt.least_radius && !state.options.paper_exact;
-  const bool tip = learnt.branches[branch.source].end == BranchEnd::Tip && branch.arc(state.style.step) > 0.9 * branch.length;
+  const bool tip =
+      learnt.branches[branch.source].end == BranchEnd::Tip && branch.arc(state.style.step) > 0.9 * branch.length;
   if (tip && !wide) return;  // the template's own tip; where that is wide its trace was cut short
   const int last = static_cast<int>(learnt.tip_profile.size()) - 1, end = branch.count() - 1;
   const int way = wide ? std::max(last, static_cast<int>(kWay * radius / state.style.step)) : last;
@@ -248,7 +218,8 @@ void taper_tip(GrowthState& state, int number) {
   for (int j = 0; j <= std::min(way, end); ++j) {
     const double share = static_cast<double>(j) / way;
     const double factor = learnt.tip_profile[static_cast<std::size_t>(std::lround(share * last))];
-    branch.radii[end - j] = std::max(0.5, branch.radii[end - j] * factor * (pointed + (1.0 - pointed) * std::sqrt(share)));
+    branch.radii[end - j] =
+        std::max(0.5, branch.radii[end - j] * factor * (pointed + (1.0 - pointed) * std::sqrt(share)));
   }
 }
 

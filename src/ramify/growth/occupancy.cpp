@@ -48,7 +48,8 @@ void Occupancy::add_link(const Vec2& junction, const Vec2& start, int branch) {
 }
 
 void Occupancy::add_edge(const GrowingBranch& branch, int number, int node) {
-  index_.add({branch.points[node - 1], branch.points[node], branch.radii[node - 1], branch.radii[node], number, node - 1});
+  index_.add(
+      {branch.points[node - 1], branch.points[node], branch.radii[node - 1], branch.radii[node], number, node - 1});
 }
 
 bool Occupancy::blocked_ground(const Capsule& edge) const {
@@ -63,8 +64,10 @@ Occupancy::Verdict Occupancy::judge(const std::vector<GrowingBranch>& branches, 
   const double widths = edge.widest() + other.widest();
   const double room = std::max(kept_gap(edge, other), std::min(clearance, room_.opening * edge.place * step_));
   if (other.owner == number) {
-    if (other.place == kLinkPlace || edge.place - other.place < 2) return Verdict::Clear;
+    if (edge.place - other.place < 2) return Verdict::Clear;
     const double distance = segment_distance(edge.a, edge.b, other.a, other.b);
+    // On a thick parent a child has room to turn back to the link it hangs on.
+    if (other.place == kLinkPlace) return distance < 0.25 ? Verdict::Blocked : Verdict::Clear;
     if (distance < 0.5 * step_) return Verdict::Blocked;
     // Near along the branch it may come near in space: a bend, not a touch.
     if ((edge.place - other.place) * step_ < 3.0 * (widths + 0.5 * clearance) + 4.0 * step_) return Verdict::Clear;
@@ -78,7 +81,8 @@ Occupancy::Verdict Occupancy::judge(const std::vector<GrowingBranch>& branches, 
                       std::abs(other.place - branch.parent_node) * step_ < 3.0 * rim + 5.0 * step_;
     if (near) {
       // A child starts half a pixel off its parent's rim: on a thin parent it must not be asked for more than that.
-      const double clear = std::min(std::max(0.25 * step_, 0.6 * std::min(other.radius_a, other.radius_b)), 0.6 * (rim + 0.5));
+      const double clear =
+          std::min(std::max(0.25 * step_, 0.6 * std::min(other.radius_a, other.radius_b)), 0.6 * (rim + 0.5));
       return distance < clear ? Verdict::Blocked : Verdict::Clear;
     }
   }
@@ -88,14 +92,15 @@ Occupancy::Verdict Occupancy::judge(const std::vector<GrowingBranch>& branches, 
   return distance < widths + room ? Verdict::Meets : Verdict::Clear;
 }
 
-Hit Occupancy::meet(const std::vector<GrowingBranch>& branches, int number, const Extension& extension, bool joining) const {
+Hit Occupancy::meet(const std::vector<GrowingBranch>& branches, int number, const Extension& extension,
+                    bool joining) const {
   const double clearance = joining ? 0.0 : room_.clearance;
   const GrowingBranch& branch = branches[number];
   Vec2 from = branch.points.back();
   double from_radius = branch.radii.back();
   for (std::size_t j = 0; j < extension.points.size(); ++j) {
-    const Capsule edge{from,   extension.points[j], from_radius, extension.radii[j],
-                       number, branch.count() - 1 + static_cast<int>(j)};
+    const Capsule edge{
+        from, extension.points[j], from_radius, extension.radii[j], number, branch.count() - 1 + static_cast<int>(j)};
     if (blocked_ground(edge)) return {true, kNone, static_cast<int>(j)};
     Hit hit;
     const Vec2 reach = Vec2::Constant(1.5 * edge.widest() + clearance + 3.0 + 0.5 * step_);
