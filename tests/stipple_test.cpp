@@ -134,3 +134,21 @@ TEST_CASE("stipple: what cannot be done is refused") {
   CHECK_THROWS_AS(stipple(cost, {}, {0}, 0.0, {}), std::invalid_argument);
   CHECK_THROWS_AS(stipple_count(cost, {}, {0}, 0, {}), std::invalid_argument);
 }
+
+TEST_CASE("stipple: the cost that is kept is 0 at points, at most the threshold, and changes by no more than an edge costs") {
+  const ScalarImage cost = random_cost(40, 30, Rng(12));
+  StippleOptions options;
+  options.jitter = 0.0;
+  options.keep_cost = true;
+  const Stipples found = stipple(cost, {}, {7}, 3.0, options);
+  REQUIRE(found.cost.size() == cost.size());
+  CHECK(found.cost.pixels()[7] == 0.0f);
+  for (const int pixel : found.pixels) CHECK(found.cost.pixels()[static_cast<std::size_t>(pixel)] == 0.0f);
+  const auto floor = static_cast<float>(options.floor);
+  for (int y = 0; y < cost.height(); ++y) {
+    for (int x = 0; x + 1 < cost.width(); ++x) {
+      CHECK(found.cost(x, y) <= 3.0f);
+      CHECK(std::abs(found.cost(x, y) - found.cost(x + 1, y)) <= 0.5f * (cost(x, y) + cost(x + 1, y)) + floor + 1e-5f);
+    }
+  }
+}

@@ -5,11 +5,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <queue>
 #include <stdexcept>
 
-#include "ramify/core/random.h"
+#include "ramify/graph/lattice_hash.h"
 
 namespace ramify {
 namespace {
@@ -22,6 +22,43 @@ std::uint64_t key_of(float cost, int pixel) {
   return (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(cost)) << 32) | static_cast<std::uint32_t>(pixel);
 }
 
+// Keys in order of cost, as one heap would hand them out: a heap for every stretch of costs, so that each is small, and a
+// bit for every stretch that holds something. Costs may fall below those handed out: every new point starts at 0.
+class CostQueue {
+ public:
+  // Costs up to `most` are told apart; dearer ones share the last stretch.
+  explicit CostQueue(float most) : stretches_(kWords * 64), scale_(static_cast<float>(kWords * 64 - 1) / most) {}
+
+  bool empty() const { return count_ == 0; }
+  void push(float cost, int cell) {
+    const std::size_t at = std::min(stretches_.size() - 1, static_cast<std::size_t>(cost * scale_));
+    std::vector<std::uint64_t>& heap = stretches_[at];
+    heap.push_back(key_of(cost, cell));
+    std::push_heap(heap.begin(), heap.end(), std::greater<>());
+    holds_[at / 64] |= std::uint64_t{1} << (at % 64);
+    ++count_;
+  }
+  std::pair<float, int> pop() {
+    std::size_t word = 0;
+    while (holds_[word] == 0) ++word;
+    const auto bit = static_cast<std::size_t>(std::countr_zero(holds_[word]));
+    std::vector<std::uint64_t>& heap = stretches_[64 * word + bit];
+    std::pop_heap(heap.begin(), heap.end(), std::greater<>());
+    const std::uint64_t key = heap.back();
+    heap.pop_back();
+    if (heap.empty()) holds_[word] &= ~(std::uint64_t{1} << bit);
+    --count_;
+    return {std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)), static_cast<int>(key & 0xffffffffu)};
+  }
+
+ private:
+  static constexpr std::size_t kWords = 8;
+  std::array<std::uint64_t, kWords> holds_{};
+  std::vector<std::vector<std::uint64_t>> stretches_;
+  float scale_;
+  std::size_t count_ = 0;
+};
+
 // The pixels with a rim that may not be entered, so that neighbours need no test of the frame.
 class Front {
  public:
@@ -30,7 +67,9 @@ class Front {
     for (int y = 0; y < cost.height(); ++y) {
       for (int x = 0; x < width_; ++x) {
         if (!allowed.empty() && allowed(x, y) == 0) continue;
-        cells_[static_cast<std::size_t>(cell_of(y * width_ + x))].cost = cost(x, y) + static_cast<float>(options.floor);
+        const float own = cost(x, y) + static_cast<float>(options.floor);
+        cells_[static_cast<std::size_t>(cell_of(y * width_ + x))].cost = own;
+        dearest_ = std::max(dearest_, own * static_cast<float>(1.0 + options.jitter) * (options.eight_connected ? 1.5f : 1.0f));
       }
     }
     steps_ = {1, -1, stride_, -stride_, stride_ + 1, stride_ - 1, -stride_ + 1, -stride_ - 1};
@@ -40,19 +79,27 @@ class Front {
     Stipples out;
     out.threshold = threshold;
     for (Cell& cell : cells_) cell.distance = kFar;
-    for (const int source : sources) set_point(cell_of(source), 0);
+    CostQueue queue(static_cast<float>(threshold) + dearest_);
+    for (const int source : sources) set_point(cell_of(source), 0, queue);
     int count = 0;
-    while (!queue_.empty()) {
-      const auto [distance, cell] = pop();
+    while (!queue.empty()) {
+      const auto [distance, cell] = queue.pop();
       if (distance != cells_[static_cast<std::size_t>(cell)].distance) continue;  // a cheaper way came first
       if (++count % kMonitorEvery == 0) monitor.check();
       if (distance > threshold) {
         const int hops = cells_[static_cast<std::size_t>(cell)].hops;
         out.pixels.push_back(pixel_of(cell));
         out.hops.push_back(hops);
-        set_point(cell, hops);
+        set_point(cell, hops, queue);
       } else {
-        relax(cell, distance);
+        relax(cell, distance, queue);
+      }
+    }
+    if (options_.keep_cost) {
+      out.cost = ScalarImage(width_, static_cast<int>(cells_.size()) / stride_ - 2);
+      for (int pixel = 0; pixel < static_cast<int>(out.cost.pixels().size()); ++pixel) {
+        const float distance = cells_[static_cast<std::size_t>(cell_of(pixel))].distance;
+        out.cost.pixels()[static_cast<std::size_t>(pixel)] = distance == kFar ? -1.0f : distance;
       }
     }
     return out;
@@ -68,19 +115,13 @@ class Front {
   int cell_of(int pixel) const { return (pixel / width_ + 1) * stride_ + pixel % width_ + 1; }
   int pixel_of(int cell) const { return (cell / stride_ - 1) * width_ + cell % stride_ - 1; }
 
-  void set_point(int cell, int hops) {
+  void set_point(int cell, int hops, CostQueue& queue) {
     cells_[static_cast<std::size_t>(cell)].distance = 0.0f;
     cells_[static_cast<std::size_t>(cell)].hops = hops;
-    queue_.push(key_of(0.0f, cell));
+    queue.push(0.0f, cell);
   }
 
-  std::pair<float, int> pop() {
-    const std::uint64_t key = queue_.top();
-    queue_.pop();
-    return {std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)), static_cast<int>(key & 0xffffffffu)};
-  }
-
-  void relax(int cell, float distance) {
+  void relax(int cell, float distance, CostQueue& queue) {
     const Cell from = cells_[static_cast<std::size_t>(cell)];
     for (int i = 0; i < (options_.eight_connected ? 8 : 4); ++i) {
       const int next = cell + steps_[static_cast<std::size_t>(i)];
@@ -90,12 +131,13 @@ class Front {
       if (reach >= to.distance) continue;
       to.distance = reach;
       to.hops = from.hops + 1;
-      queue_.push(key_of(reach, next));
+      queue.push(reach, next);
     }
   }
 
   float edge(int a, int b, float cost_a, float cost_b, float length) const {
-    const double noise = hash01(options_.seed, static_cast<std::uint64_t>(std::min(a, b)), static_cast<std::uint64_t>(std::max(a, b)));
+    if (options_.jitter == 0.0) return 0.5f * (cost_a + cost_b) * length;
+    const double noise = edge_hash01(options_.seed, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     return 0.5f * (cost_a + cost_b) * length * static_cast<float>(1.0 + options_.jitter * (2.0 * noise - 1.0));
   }
 
@@ -103,7 +145,7 @@ class Front {
   StippleOptions options_;
   std::vector<Cell> cells_;
   std::array<int, 8> steps_{};
-  std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> queue_;
+  float dearest_ = 0.0f;  // an edge
 };
 
 void check_input(const ScalarImage& cost, const Mask& allowed, const std::vector<int>& sources) {

@@ -17,12 +17,14 @@ struct StippleOptions {
   bool eight_connected = false;   // the paper's graph has four neighbours
   double floor = 0.02;            // cost added everywhere, so that the front pays for flat white ground too; > 0
   std::uint64_t seed = 1;
+  bool keep_cost = false;         // fill Stipples::cost
 };
 
 struct Stipples {
   std::vector<int> pixels;        // y * width + x, in the order they were set; the sources are not among them
   std::vector<int> hops;          // edges from the sources to each point along the front's way
   double threshold = 0.0;         // cost between points
+  ScalarImage cost;               // what the front had paid since the nearest point, at the end; -1 where it never came
 };
 
 // cost: >= 0 per pixel, an edge costs the mean of its two (finite). sources: where the front starts (indices as above);
