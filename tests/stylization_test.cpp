@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ramify/core/error.h"
+#include "ramify/graph/plan.h"
 #include "ramify/growth/importance.h"
 #include "ramify/skeleton/draw.h"
 #include "ramify/skeleton/statistics.h"
@@ -54,21 +55,62 @@ TEST_CASE("importance: darkness alone, edges alone, three to one") {
 }
 
 TEST_CASE("stylize: the drawing lies on what is important, more so with the partial metric than with sums") {
-  const ScalarImage importance = importance_map(ring(), {});
-  double on_ring[2] = {0.0, 0.0};
-  for (int i = 0; i < 2; ++i) {
-    StylizeOptions options;
-    options.metric.metric = i == 0 ? Metric::Sum : Metric::Partial;
-    options.endpoints = 150;
-    const Stylization made = stylize(importance, {}, std::nullopt, options, Rng(3), {});
-    const Skeleton skeleton = dendrite_skeleton(made.dendrite, 1.0, {});
-    CHECK(find_crossings(skeleton).empty());
-    int near = 0;
-    for (const Node& node : skeleton.nodes()) near += std::abs(std::hypot(node.position.x() - 64, node.position.y() - 64) - 40.0) < 5.0 ? 1 : 0;
-    on_ring[i] = static_cast<double>(near) / skeleton.count();
+  // Three dark waves between two uprights: along them is a long way, across the light ground a short one.
+  ScalarImage light(192, 192, 1.0f);
+  for (int x = 12; x < 180; ++x) {
+    for (const int middle : {40, 96, 152}) {
+      const double y0 = middle + 18.0 * std::sin(x * 2.0 * kPi / 42.0);
+      for (int y = 0; y < 192; ++y) light(x, y) = std::min(light(x, y), static_cast<float>(std::clamp(0.35 * std::abs(y - y0), 0.0, 1.0)));
+    }
   }
-  CHECK(on_ring[1] > 0.45);  // the ring covers 15 % of the picture
-  CHECK(on_ring[1] > on_ring[0]);
+  for (int y = 20; y < 172; ++y) light(12, y) = light(179, y) = 0.0f;
+  ImportanceOptions darkness;
+  darkness.edges = 0.0;
+  const ScalarImage importance = importance_map(grey(light), darkness);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    double on_lines[2] = {0.0, 0.0};
+    std::vector<int> ends[2];
+    for (int i = 0; i < 2; ++i) {
+      StylizeOptions options;
+      options.metric.metric = i == 0 ? Metric::Sum : Metric::Partial;
+      options.endpoints = 120;
+      options.least = 0.5;
+      const Stylization made = stylize(importance, {}, std::nullopt, options, Rng(seed), {});
+      ends[i] = made.endpoints;
+      const Skeleton skeleton = dendrite_skeleton(made.dendrite, 1.0, {});
+      CHECK(find_crossings(skeleton).empty());
+      int near = 0;
+      for (const Node& node : skeleton.nodes()) {
+        near += importance(static_cast<int>(node.position.x()), static_cast<int>(node.position.y())) > 0.4f ? 1 : 0;
+      }
+      on_lines[i] = static_cast<double>(near) / skeleton.count();
+    }
+    CHECK(ends[0] == ends[1]);
+    CHECK(on_lines[1] > 0.9);
+    CHECK(on_lines[1] > on_lines[0] + 0.1);
+  }
+}
+
+TEST_CASE("main_line_node: from there the dearest step to most of the lines is the cheapest possible") {
+  // A ring far from the middle, which is dear itself; and one cheap pixel in the middle that leads nowhere.
+  ScalarImage importance = importance_map(ring(), {});
+  importance(64, 64) = 1.0f;
+  const Lattice lattice = importance_lattice(importance, {}, {}, Rng(4));
+  const int node = main_line_node(lattice, Vec2(64, 64));
+  CHECK(std::abs(std::hypot(node % 128 - 64, node / 128 - 64) - 40.0) < 8.0);
+  // By plans: the peak that a tenth of all nodes can be reached with, from there and from any of 60 other nodes.
+  const auto peak_to_a_tenth = [&](int from) {
+    PlanOptions options;
+    options.metric.metric = Metric::Partial;
+    const Plan plan = plan_paths(lattice, std::vector<int>{from}, options);
+    std::vector<double> peaks;
+    for (int i = 0; i < lattice.count(); ++i) peaks.push_back(path_cost(plan, i));
+    std::nth_element(peaks.begin(), peaks.begin() + lattice.count() / 10, peaks.end());
+    return peaks[static_cast<std::size_t>(lattice.count() / 10)];
+  };
+  const double own = peak_to_a_tenth(node);
+  Rng rng(8);
+  for (int i = 0; i < 60; ++i) CHECK(own <= peak_to_a_tenth(rng.below(lattice.count())) + 1e-9);
 }
 
 TEST_CASE("emphasize: a rolling mean that runs on into the parent and thins at the tip") {

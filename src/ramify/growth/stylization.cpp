@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "ramify/core/error.h"
-#include "ramify/graph/stipple.h"
 #include "ramify/skeleton/branches.h"
 
 namespace ramify {
@@ -37,7 +38,77 @@ namespace {
 // Costs as whole numbers: the dearest node gets this, so that a queue of buckets can be used.
 constexpr double kDearest = 1000.0;
 
+// The share of all nodes that must hang together to be the picture's main lines. Cheap nodes come together to one large
+// piece all of a sudden (percolation), so the share is of little consequence.
+constexpr double kMainShare = 0.1;
+
+// Pieces of nodes that hang together, as trees of parents.
+class Pieces {
+ public:
+  explicit Pieces(int count) : parent_(static_cast<std::size_t>(count)), size_(static_cast<std::size_t>(count), 1) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int of(int node) {
+    while (parent_[static_cast<std::size_t>(node)] != node) {
+      int& up = parent_[static_cast<std::size_t>(node)];
+      up = parent_[static_cast<std::size_t>(up)];
+      node = up;
+    }
+    return node;
+  }
+  int size_of(int node) { return size_[static_cast<std::size_t>(of(node))]; }
+  void join(int a, int b) {
+    a = of(a), b = of(b);
+    if (a == b) return;
+    if (size_[static_cast<std::size_t>(a)] < size_[static_cast<std::size_t>(b)]) std::swap(a, b);
+    parent_[static_cast<std::size_t>(b)] = a;
+    size_[static_cast<std::size_t>(a)] += size_[static_cast<std::size_t>(b)];
+  }
+
+ private:
+  std::vector<int> parent_, size_;
+};
+
+// Nodes in rising order of weight; only allowed ones.
+std::vector<int> cheapest_first(const Lattice& lattice) {
+  const WholeWeights& weights = std::get<WholeWeights>(lattice.weights);
+  std::vector<int> out;
+  for (int node = 0; node < lattice.count(); ++node) {
+    if (is_allowed(lattice, node)) out.push_back(node);
+  }
+  std::stable_sort(out.begin(), out.end(), [&](int a, int b) { return weights[static_cast<std::size_t>(a)] < weights[static_cast<std::size_t>(b)]; });
+  return out;
+}
+
 }  // namespace
+
+int main_line_node(const Lattice& lattice, const Vec2& near) {
+  const std::vector<int> order = cheapest_first(lattice);
+  if (order.empty()) throw InputError("the mask", "leaves no pixel that paths may use");
+  const int wanted = std::max(1, static_cast<int>(kMainShare * static_cast<double>(order.size())));
+  Pieces pieces(lattice.count());
+  std::vector<std::uint8_t> in(static_cast<std::size_t>(lattice.count()), 0);
+  int largest = order.front();
+  for (const int node : order) {
+    in[static_cast<std::size_t>(node)] = 1;
+    const int x = node % lattice.width, y = node / lattice.width;
+    for (const LatticeStep& step : lattice_steps(lattice.connectivity)) {
+      if (!lattice.contains(x + step.dx, y + step.dy)) continue;
+      const int next = lattice.node(x + step.dx, y + step.dy);
+      if (in[static_cast<std::size_t>(next)]) pieces.join(node, next);
+    }
+    if (pieces.size_of(node) > pieces.size_of(largest)) largest = node;
+    if (pieces.size_of(largest) >= wanted) break;
+  }
+  int best = largest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int node : order) {
+    if (!in[static_cast<std::size_t>(node)] || pieces.of(node) != pieces.of(largest)) continue;
+    const double distance = (Vec2(node % lattice.width, node / lattice.width) - near).squaredNorm();
+    if (distance < least || (distance == least && node < best)) least = distance, best = node;
+  }
+  return best;
+}
 
 std::vector<double> growth_direction_factors(Connectivity connectivity, double upward, double sideways) {
   if (upward == 1.0 && sideways == 1.0) return {};
@@ -68,22 +139,26 @@ Lattice importance_lattice(const ScalarImage& importance, const Mask& allowed, c
 Stylization stylize(const ScalarImage& importance, const Mask& allowed, std::optional<Vec2> root, const StylizeOptions& options,
                     Rng rng, const Monitor& monitor) {
   if (importance.empty()) throw InputError("the picture", "is empty");
-  const Vec2 seed = root ? *root : Vec2(importance.width() / 2, importance.height() / 2);
-  DendriteTarget target;
-  target.lattice = importance_lattice(importance, allowed, options, rng.child("weights"));
-  const int start = node_at(target.lattice, {seed.x(), seed.y(), 0.0});
-  if (!is_allowed(target.lattice, start)) throw InputError("the root", "lies where the mask forbids paths; place it elsewhere");
-  target.generators = {start};
-  StippleOptions stipples;
-  stipples.seed = rng.child("stipples").next();
-  target.endpoints = stipple_count(importance, allowed, target.generators, options.endpoints, stipples, monitor.stage("endpoints", 0.0, 0.7)).pixels;
-  std::erase_if(target.endpoints, [&](int node) { return importance.pixels()[static_cast<std::size_t>(node)] < options.least; });
-  if (target.endpoints.empty()) throw InputError("the picture", "has no room for a single endpoint; lower --least-importance");
+  Lattice lattice = importance_lattice(importance, allowed, options, rng.child("weights"));
+  const Vec2 middle(importance.width() / 2, options.upward > 1.0 ? 0 : importance.height() / 2);
+  const int start = root ? node_at(lattice, {root->x(), root->y(), 0.0}) : main_line_node(lattice, middle);
+  if (!is_allowed(lattice, start)) throw InputError("the root", "lies where the mask forbids paths; place it elsewhere");
   Stylization out;
-  out.endpoints = target.endpoints;
-  DendriteOptions plan;
+  out.stipples.seed = rng.child("stipples").next();
+  Stipples stipples = stipple_count(importance, allowed, {start}, options.endpoints, out.stipples, monitor.stage("endpoints", 0.0, 0.7));
+  out.threshold = stipples.threshold;
+  out.endpoints = std::move(stipples.pixels);
+  std::erase_if(out.endpoints, [&](int node) { return importance.pixels()[static_cast<std::size_t>(node)] < options.least; });
+  if (out.endpoints.empty()) throw InputError("the picture", "has no room for a single endpoint; lower --least-importance");
+  PlanOptions plan;
   plan.metric = options.metric;
-  out.dendrite = grow_dendrite(std::move(target), plan, rng.child("paths"), monitor.stage("paths", 0.7, 1.0));
+  plan.endpoints = out.endpoints;
+  const Plan paths = plan_paths(lattice, std::vector<int>{start}, plan, monitor.stage("paths", 0.7, 1.0));
+  Structure structure;
+  structure.forest = make_path_forest(lattice.count());
+  const int placed = draw_paths(structure, paths, lattice, out.endpoints, 0);
+  if (placed == 0) throw InputError("the endpoints", "none can be reached from the root; give another --root, or a mask that joins them");
+  out.dendrite = {std::move(lattice), std::move(structure), 1, {placed}};
   return out;
 }
 

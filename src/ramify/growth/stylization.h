@@ -11,6 +11,7 @@
 #include "ramify/core/random.h"
 #include "ramify/graph/lattice.h"
 #include "ramify/graph/metric.h"
+#include "ramify/graph/stipple.h"
 #include "ramify/growth/dendrite.h"
 #include "ramify/image/image.h"
 #include "ramify/skeleton/skeleton.h"
@@ -43,13 +44,23 @@ std::vector<double> growth_direction_factors(Connectivity connectivity, double u
 // with eight neighbours and edges that cost the mean of their nodes (section 4.1). allowed: empty, or 0 = forbidden.
 Lattice importance_lattice(const ScalarImage& importance, const Mask& allowed, const StylizeOptions& options, Rng rng);
 
+// The node nearest to a point (px) on the main lines: the first piece of a tenth of all nodes that hangs together when nodes
+// come in by rising weight (8 neighbours). From such a root the dearest step on the way to any other place on these lines is
+// as cheap as can be. From a root on dear ground every path has the same dearest step, the one that leaves that ground, and
+// the partial metric is left with its sums (docs/decisions/0050). Weights must be whole. O(n log n). Throws InputError when
+// nothing is allowed.
+int main_line_node(const Lattice& lattice, const Vec2& near);
+
 struct Stylization {
   Dendrite dendrite;
   std::vector<int> endpoints;  // nodes, in the order they were set
+  StippleOptions stipples;     // what set them, with `threshold`
+  double threshold = 0.0;
 };
 
-// root: the seed of the dendrite, px; empty = the middle of the picture. Deterministic in (inputs, rng). Throws
-// InputError when the picture is empty or the root is forbidden.
+// root: the seed of the dendrite, px; empty = on the main lines, near the middle, or the middle of the top where upward steps
+// are dear. Deterministic in (inputs, rng). Throws
+// InputError when the picture is empty, the root is forbidden or no endpoint can be reached from it.
 Stylization stylize(const ScalarImage& importance, const Mask& allowed, std::optional<Vec2> root, const StylizeOptions& options,
                     Rng rng, const Monitor& monitor);
 
