@@ -8,6 +8,7 @@
 #include "presets.h"
 #include "ramify/image/image_io.h"
 #include "ramify/recipe/planning.h"
+#include "ramify/recipe/planning_pictures.h"
 #include "ramify/skeleton/skeleton_io.h"
 
 namespace ramify::app {
@@ -34,7 +35,7 @@ const std::vector<Preset>& stylize_presets() {
       {"emphasis", "thick where the picture matters", {{"thin", "0.3"}, {"thick", "2"}}},
       {"sketch", "few lines", {{"count-endpoints", "800"}, {"thick", "3"}}},
       {"dense", "many lines", {{"count-endpoints", "8000"}, {"thick", "1.6"}}},
-      {"lightning", "lines that run down", {{"upward", "4"}, {"sideways", "2"}, {"thick", "1.4"}}},
+      {"lightning", "lines that run down along edges", {{"edges", "20"}, {"least-importance", "0.2"}, {"count-endpoints", "1500"}, {"noise", "0.5"}, {"upward", "2"}, {"sideways", "1.3"}, {"thin", "0.2"}, {"thick", "1.2"}}},
       {"sum", "the paper's other metric, for comparison", {{"metric", "sum"}}},
       {"tree", "a painted tree", {{"tree", "true"}, {"thickness", "endpoints"}, {"thin", "0.6"}, {"thick", "14"}}},
       {"hidden", "a tree with the picture in its right half", {{"tree", "true"}, {"limbs", "9"}, {"twigs", "2500"}, {"branching", "1.6"}, {"hops", "220"}, {"thickness", "endpoints"}, {"thin", "0.7"}, {"thick", "12"}}},
@@ -97,9 +98,7 @@ Outcome stylize_paths(StylizeArguments& a, const SharedOptions& shared, const Mo
   const StylizedPicture made = stylize_picture(a.request, shared.seed, monitor);
   if (!shared.debug_dir.empty()) {
     make_folder(shared.debug_dir);
-    if (!made.importance.empty()) save_scalar(shared.debug_dir + "/importance.tiff", made.importance);
-    save_endpoints(shared.debug_dir, made.lattice, made.endpoints, 1.0);
-    save_lattice_fields(shared.debug_dir, made.lattice, made.roots, a.request.stylize.metric, monitor);
+    save_stylize_intermediates(shared.debug_dir, made, a.request.stylize.metric, monitor);
   }
   for (std::size_t i = 0; i < outputs.size(); ++i) save_skeleton(made.layers[i], outputs[i]);
   return {outputs, {}, ""};
@@ -144,7 +143,7 @@ void add_stylize(CLI::App& root, Chosen& chosen) {
   CLI::App* app = root.add_subcommand("stylize", "Tell a picture by the lines of one dendrite");
   app->add_option("picture", a->request.picture, "Picture (.png .jpg .tif .exr .webp); trees can do without");
   app->add_option("--mask", a->request.mask, "Picture of the same size: lines run where it is white")->type_name("IMAGE");
-  app->add_option("--root", a->request.root, "Where the dendrite starts: \"x,y\" in px [the middle; trees: of the bottom]")->type_name("POINT");
+  app->add_option("--root", a->request.root, "Where the dendrite starts: \"x,y\" in px [on a main line near the middle, with --upward near the top; trees: the middle of the bottom]")->type_name("POINT");
   finish(*app, a, chosen, stylize_presets(), stylize_paths);
   app->footer("Examples:\n  ramify stylize portrait.jpg -o portrait.json && ramify paint portrait.json -o portrait.svg\n"
               "  ramify stylize cat.png --preset dense --scale 2 -o cat.json\n"

@@ -153,8 +153,13 @@ class TreeGrower {
     return out;
   }
 
-  // Twigs keep off the lower half of the trunk.
-  bool in_crown(int node) const { return y_of(node) < y_of(root_) - 0.5 * options_.trunk * size_.height; }
+  // Twigs keep off the lower half of the trunk. Without a picture they keep within an ellipse too: a crown, not the canvas.
+  bool in_crown(int node) const {
+    const double lowest = y_of(root_) - 0.5 * options_.trunk * size_.height;
+    if (!importance_.empty()) return y_of(node) < lowest;
+    const double dx = (x_of(node) - 0.5 * size_.width) / (0.49 * size_.width), dy = (y_of(node) - 0.5 * lowest) / (0.5 * lowest);
+    return dx * dx + dy * dy < 1.0;
+  }
 
   std::vector<int> later_ends(int round, int count, double reach) {
     const Rng rng = rng_.child("ends", static_cast<std::uint64_t>(round));

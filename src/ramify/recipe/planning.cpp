@@ -198,6 +198,7 @@ void grow_layers(const StylizeRequest& request, double scale, std::uint64_t seed
   const PathForest& forest = first->structure.forest;
   out.roots = {forest.nodes.front()};
   for (const int end : first->structure.endpoints) out.endpoints.push_back(forest.nodes[static_cast<std::size_t>(end)]);
+  out.structure = std::move(first->structure);
 }
 
 }  // namespace
@@ -219,6 +220,9 @@ StylizedPicture stylize_picture(const StylizeRequest& request, std::uint64_t see
   out.roots = {made.dendrite.structure.forest.nodes.front()};
   out.endpoints = std::move(made.endpoints);
   out.lattice = std::move(made.dendrite.lattice);
+  out.structure = std::move(made.dendrite.structure);
+  out.stipples = made.stipples;
+  out.threshold = made.threshold;
   return out;
 }
 

@@ -56,7 +56,7 @@ std::vector<std::string> input_files(const DendriteRequest& request);
 struct StylizeRequest {
   std::string picture;          // may be empty for a tree that hides nothing
   std::string mask;             // white = paths may run here; empty = everywhere
-  std::string root;             // "x,y" px; empty = the middle, for trees the middle of the bottom
+  std::string root;             // "x,y" px; empty = on a main line (stylization.h), for trees the middle of the bottom
   std::string size;             // "WIDTHxHEIGHT" px of a tree without a picture; empty = 900x1100
   double scale = 0.0;           // of the picture, before planning; 0 = small ones so that the longer side has 1200 px
   bool tree = false;            // a painted tree instead of a drawing by one dendrite
@@ -73,6 +73,9 @@ std::vector<std::string> input_files(const StylizeRequest& request);
 struct StylizedPicture {
   ScalarImage importance;       // empty for a tree without a picture
   Lattice lattice;              // that the paths ran on; of a tree's last round
+  Structure structure;          // the drawing's, or the first tree's
+  StippleOptions stipples;      // drawings: what set the endpoints, with
+  double threshold = 0.0;       // this cost between them; 0 for trees
   std::vector<int> roots, endpoints;  // nodes
   std::vector<Skeleton> layers; // px of the scaled picture; one, but for trees with several layers
 };
