@@ -68,6 +68,9 @@ void check_effects(const CLI::App& app, PaintArguments& a) {
   for (const char* name : {"frames", "fps", "hold"}) {
     if (is_given(app, name) && !o.animate) throw OptionError(name, "", "has no effect without --animate");
   }
+  for (const char* name : {"pale", "rim"}) {
+    if (is_given(app, name) && a.request.behind.empty()) throw OptionError(name, "", "has no effect without --behind");
+  }
   const std::string kind = extension_of(a.output);
   for (const char* name : {"fps", "hold"}) {
     if (is_given(app, name) && kind != ".webp") throw OptionError(name, "", "has no effect on numbered frames; write a .webp");
@@ -107,7 +110,10 @@ Outcome paint(PaintArguments& a, const SharedOptions& shared, const Monitor& mon
   a.request.limits = shared.load_limits();
   check_painting(a.request, a.output);
   std::vector<std::string> inputs{a.request.skeleton};
-  if (!a.request.over.empty()) inputs.push_back(a.request.over);
+  inputs.insert(inputs.end(), a.request.behind.begin(), a.request.behind.end());
+  for (const std::string& picture : {a.request.over, a.request.fill}) {
+    if (!picture.empty()) inputs.push_back(picture);
+  }
   check_outputs({a.output}, inputs);
   if (!makes_frames(a) && shared.no_clobber && file_exists(a.output)) return {{}, {a.output}, ""};
   if (!shared.debug_dir.empty()) make_folder(shared.debug_dir);
@@ -134,7 +140,7 @@ void check_figure_effects(const CLI::App& app, FigureArguments& a) {
   if (o.figure.lines == FigureLines::Straight) refuse("curl", "on --lines straight");
   if (!is_figure_skeleton(a.output)) return;
   for (const OptionField& field : describe(a.request.options)) refuse(field.name, "on a skeleton; write a picture or .svg");
-  for (const char* name : {"preset", "over", "skeleton"}) refuse(name, "on a skeleton; write a picture or .svg");
+  for (const char* name : {"preset", "over", "fill", "skeleton"}) refuse(name, "on a skeleton; write a picture or .svg");
 }
 
 Outcome figure(FigureArguments& a, const SharedOptions& shared, const Monitor& monitor) {
@@ -149,7 +155,7 @@ Outcome figure(FigureArguments& a, const SharedOptions& shared, const Monitor& m
   if (!skeleton) check_painting(a.request, a.output);
   a.figure.painting = a.request;
   std::vector<std::string> inputs, outputs{a.output};
-  for (const std::string& input : {a.figure.bitmap, a.request.over}) {
+  for (const std::string& input : {a.figure.bitmap, a.request.over, a.request.fill}) {
     if (!input.empty()) inputs.push_back(input);
   }
   if (!a.skeleton_file.empty()) outputs.push_back(a.skeleton_file);
@@ -177,6 +183,7 @@ Outcome figure(FigureArguments& a, const SharedOptions& shared, const Monitor& m
 void add_painting_options(CLI::App& app, PaintArguments& a) {
   app.add_option("--preset", a.preset, "Settings that go well together; list shows them all")->type_name("NAME|list");
   app.add_option("--over", a.request.over, "Paint on this photo; light is added to it")->type_name("IMAGE");
+  app.add_option("--fill", a.request.fill, "Picture of the canvas that shows in the branches, such as one by ramify render")->type_name("IMAGE");
   const std::vector<OptionField> all = describe(a.request.options), style = describe(a.request.options.paint);
   a.flags.add(app, style, "Style");
   a.flags.add(app, std::vector<OptionField>(all.begin() + static_cast<std::ptrdiff_t>(style.size()), all.end()), "Output");
@@ -189,6 +196,7 @@ void add_paint(CLI::App& root, Chosen& chosen) {
   CLI::App* app = root.add_subcommand("paint", "Draw a skeleton: ink, vine, lightning; SVG, picture or animation");
   app->add_option("skeleton", a->request.skeleton, "Skeleton (.json .swc .svg) or annotation (.ramify.json)");
   app->add_option("-o,--output", a->output, "Drawing or picture to write (.svg .png .jpg .tif .exr .webp)")->type_name("FILE");
+  app->add_option("--behind", a->request.behind, "Skeletons on the same canvas that stand behind, the farthest first")->type_name("FILE…");
   add_painting_options(*app, *a);
   add_shared(*app, chosen.shared);
   app->footer("Examples:\n  ramify paint tree.json --preset ivy -o ivy.svg\n"

@@ -107,6 +107,71 @@ class Paint(CliTest):
             middle = picture[280, 200].astype(int)
             self.assertTrue((middle < (60, 60, 60)).all() if style == "ink" else (middle > 200).all(), middle)
 
+    def test_a_drawing_stands_small_where_it_is_told(self):
+        photo = self.path("p.png")
+        Image.new("RGB", (300, 200), (200, 210, 220)).save(photo)
+        self.ok("paint", self.tree, "-o", self.path("o.png"), "--over", photo, "--at", "220,150", "--scale", "0.25", "--smooth", "0")
+        self.ok("paint", self.tree, "-o", self.path("alone.png"), "--smooth", "0")
+        placed = numpy.asarray(Image.open(self.path("o.png")).convert("L"), float)
+        self.assertEqual(placed.shape, (200, 300))
+        ys, xs = numpy.nonzero(placed < 190)
+        alone = numpy.asarray(Image.open(self.path("alone.png")))[..., 3] > 100
+        ay, ax = numpy.nonzero(alone)
+        # The same drawing a quarter as large: its extent, and its foot at the point.
+        self.assertAlmostEqual(xs.max() - xs.min(), (ax.max() - ax.min()) / 4, delta=2.5)
+        self.assertAlmostEqual(ys.max() - ys.min(), (ay.max() - ay.min()) / 4, delta=2.5)
+        self.assertAlmostEqual(ys.max(), 150, delta=3)
+        self.assertLess(abs(xs[ys == ys.max()].mean() - 220), 3)
+        # Softened, it covers as much in sum, and nothing stays as dark.
+        self.ok("paint", self.tree, "-o", self.path("s.png"), "--over", photo, "--at", "220,150", "--scale", "0.25", "--smooth", "0", "--soften", "1.5")
+        soft = numpy.asarray(Image.open(self.path("s.png")).convert("L"), float)
+        ground = placed[2, 2]
+        self.assertAlmostEqual((ground - soft).sum() / (ground - placed).sum(), 1.0, delta=0.08)
+        self.assertGreater(soft.min(), placed.min() + 10)
+
+    def test_colours_of_the_photo_and_of_a_filling(self):
+        photo = self.path("p.png")
+        picture = numpy.full((320, 400, 3), 230, "uint8")
+        picture[:40, :40] = (60, 20, 90)  # the darkest 1.25 %
+        Image.fromarray(picture).save(photo)
+        self.ok("paint", self.tree, "-o", self.path("o.png"), "--over", photo, "--palette", "photo")
+        self.assertLess(numpy.abs(numpy.asarray(Image.open(self.path("o.png")))[280, 200].astype(int) - (60, 20, 90)).max(), 3)
+        fill = numpy.zeros((160, 200, 3), "uint8")
+        fill[:, :100], fill[:, 100:] = (250, 0, 0), (0, 0, 250)
+        Image.fromarray(fill).save(self.path("f.png"))
+        self.ok("paint", self.tree, "-o", self.path("o.png"), "--fill", self.path("f.png"), "--scale", "2")
+        self.ok("paint", self.tree, "-o", self.path("plain.png"), "--scale", "2")
+        ours, plain = (numpy.asarray(Image.open(self.path(n))) for n in ("o.png", "plain.png"))
+        self.assertTrue((ours[..., 3] == plain[..., 3]).all())
+        drawn = ours[..., 3] == 255
+        expected = numpy.where(numpy.arange(400)[None, :, None] < 200, numpy.array((250, 0, 0)), numpy.array((0, 0, 250)))
+        away = numpy.abs(numpy.arange(400) - 199.5) > 4
+        self.assertLess(numpy.abs(ours[..., :3].astype(int) - expected)[:, away][drawn[:, away]].max(), 3)
+
+    def test_what_stands_behind_is_paler_and_cut_out_by_a_rim(self):
+        bar = "# ramify canvas 120 120\n1 0 {0} {1} 0 6 -1\n2 0 {2} {3} 0 6 1\n"
+        front, back = self.path("front.swc", bar.format(10, 60, 110, 60)), self.path("back.swc", bar.format(60, 110, 60, 10))
+        options = ["--background", "#ffffff", "--palette", "#000000", "--taper", "0", "--smooth", "0"]
+        self.ok("paint", front, "--behind", back, "-o", self.path("o.png"), "--pale", "0.5", "--rim", "4", *options)
+        picture = numpy.asarray(Image.open(self.path("o.png")).convert("L"), int)
+        self.assertLess(picture[60, 30], 10)                       # the front
+        self.assertLess(picture[60, 60], 10)                       # also where it crosses
+        self.assertTrue(80 < picture[100, 60] < 200)               # the back is grey
+        self.assertGreater(picture[60 + 8, 60], 250)               # between them ground
+        self.assertGreater(picture[60 - 8, 60], 250)
+        for kind in ("png", "svg"):
+            self.ok("paint", front, "--behind", back, back, "-o", self.path("again." + kind), *options)
+            self.ok("replay", self.path("again." + kind), "-o", self.path("replayed." + kind))
+            self.assertEqual(self.digest(self.path("again." + kind)), self.digest(self.path("replayed." + kind)))
+
+    def test_washes_do_not_darken_where_branches_overlap(self):
+        tree = self.path("t.swc", "# ramify canvas 200 200\n1 0 20 100 0 12 -1\n2 0 100 100 0 12 1\n3 0 180 100 0 12 2\n4 0 100 20 0 12 2\n")
+        self.ok("paint", tree, "-o", self.path("o.svg"), "--style", "watercolor", "--background", "#ffffff")
+        root = ET.parse(self.path("o.svg")).getroot()
+        washes = [g for g in root.iter(SVG + "g") if g.get("opacity")]
+        self.assertGreaterEqual(len(washes), 2)
+        self.assertTrue(all(p.get("fill-opacity") is None for g in washes for p in g))
+
     def test_pillow_plays_the_animation(self):
         out = self.path("a.webp")
         self.ok("paint", self.tree, "-o", out, "--style", "vine", "--animate", "--frames", "12", "--fps", "20", "--hold", "1")
@@ -160,6 +225,18 @@ class Paint(CliTest):
         Image.new("RGB", (20, 20)).save(photo)
         self.fails(2, "photo", "paint", self.tree, "-o", self.path("a.svg"), "--over", photo)
         self.fails(2, "no effect", "paint", self.tree, "-o", out, "--over", photo, "--background", "#fff")
+        for extra in (["--at", "3,3"], ["--pale", "0.2"], ["--rim", "2"], ["--hatching", "0.3"], ["--over", photo, "--at", "3,3", "--size", "9x9"],
+                      ["--style", "lightning", "--soften", "1"], ["--style", "lightning", "--behind", self.tree]):
+            self.fails(2, "no effect", "paint", self.tree, "-o", out, *extra)
+        self.fails(2, "outside the photo", "paint", self.tree, "-o", out, "--over", photo, "--at", "20,3")
+        self.fails(2, "one point", "paint", self.tree, "-o", out, "--over", photo, "--at", "2,3 4,5")
+        self.fails(2, "--over", "paint", self.tree, "-o", out, "--palette", "photo")
+        self.fails(2, "plain ground", "paint", self.tree, "-o", out, "--over", photo, "--behind", self.tree)
+        self.fails(3, "proportions", "paint", self.tree, "-o", out, "--fill", photo)
+        self.fails(3, "nowhere.png", "paint", self.tree, "-o", out, "--fill", "nowhere.png")
+        self.fails(3, "canvas of", "paint", self.tree, "-o", out, "--behind", self.path("small.swc", "# ramify canvas 30 20\n1 0 15 10 0 4 -1\n"))
+        self.fails(2, "no effect", "paint", self.tree, "-o", self.path("a.svg"), "--soften", "2")
+        self.fails(2, "no picture", "paint", self.tree, "-o", self.path("a.svg"), "--fill", photo)
 
     def test_bad_values_and_files(self):
         out = self.path("a.png")
@@ -183,7 +260,7 @@ class Paint(CliTest):
         dot = self.path("dot.swc", "# ramify canvas 30 20\n1 0 15 10 0 4 -1\n")
         twice = self.path("twice.swc", "# ramify canvas 30 20\n1 0 15 10 0 4 -1\n2 0 15 10 0 4 1\n3 0 15 10 0 1e-9 2\n4 0 900 10 0 300 1\n")
         for skeleton in (dot, twice):
-            for style in ("ink", "vine", "lightning"):
+            for style in ("ink", "vine", "lightning", "woodcut", "watercolor"):
                 for kind in ("png", "svg"):
                     self.ok("paint", skeleton, "-o", self.path("o." + kind), "--style", style)
 

@@ -30,6 +30,7 @@ struct Layer {
   std::vector<Shape> shapes;  // bottom first
   Blend blend = Blend::Over;
   double blur = 0.0;          // px, Gaussian; for Add only
+  double opacity = 1.0;       // 0..1, of the layer as one; for Over only
 };
 
 struct Drawing {

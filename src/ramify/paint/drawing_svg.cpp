@@ -89,6 +89,7 @@ std::string layer_group(const Layer& layer, int index) {
                     layer.name + "\"";
   if (one_color && !layer.shapes.empty()) out += " fill=\"" + hex_color(layer.shapes.front().color) + "\"";
   if (layer.blend == Blend::Add) out += " style=\"mix-blend-mode:screen\"";
+  if (layer.opacity < 1.0) out += " opacity=\"" + number_text(std::round(1000.0 * layer.opacity) / 1000.0) + "\"";
   if (layer.blur > 0.0) out += " filter=\"url(#" + blur_id(layer.blur) + ")\"";
   out += ">\n";
   for (const Shape& shape : layer.shapes) out += path_element(shape, !one_color);

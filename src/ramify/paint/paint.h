@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A skeleton drawn in a style: ink, vine, lightning. Two steps, so that growing pictures are cheap: the scene holds
+// A skeleton drawn in a style: ink, vine, lightning, woodcut, watercolour. Two steps, so that growing pictures are cheap: the scene holds
 // what does not change while it grows, a drawing is the scene at one moment.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace ramify {
 
-enum class PaintStyle { Ink, Vine, Lightning };
+enum class PaintStyle { Ink, Vine, Lightning, Woodcut, Watercolor };
 
 struct PaintOptions {
   PaintStyle style = PaintStyle::Ink;
@@ -27,6 +27,9 @@ struct PaintOptions {
   FoliageOptions foliage;
   std::string flower_color = "#e58aa5";
   double glow = 1.0;                // strength of the light around lightning
+  double hatching = 0.8;            // lines of the ground around a woodcut, 0 = none
+  double pale = 0.5;                // 0..1, how far what stands behind fades into the ground
+  double rim = 1.3;                 // px of ground around what stands before something else
 };
 std::vector<OptionField> describe(PaintOptions& options);
 
@@ -41,6 +44,8 @@ struct PaintScene {
   std::vector<Stroke> strokes;
   Foliage foliage;    // vine only
   double reach = 0.0; // px, longest way from a root
+  std::uint64_t seed = 1;          // of what styles add
+  std::vector<PaintScene> behind;  // drawn first, the farthest at the front of the list; on the same canvas
 };
 
 // Throws OptionError for palettes and colours that cannot be read, InputError for a skeleton without nodes.

@@ -96,6 +96,12 @@ struct BandShape {
   Box box;
 };
 
+// Shapes that are laid over what is there with one opacity.
+struct BandLayer {
+  std::vector<BandShape> shapes;
+  float opacity = 1.0f;
+};
+
 std::vector<BandShape> shapes_with_boxes(std::span<const Layer> layers, Blend blend, const View& view) {
   std::vector<BandShape> out;
   for (const Layer& layer : layers) {
@@ -117,6 +123,21 @@ void paint_band(const std::vector<BandShape>& shapes, const View& view, const Bo
       p.color = (1.0f - a) * p.color + a * color;
       p.alpha = (1.0f - a) * p.alpha + a;
     });
+  }
+}
+
+void paint_layer(const BandLayer& layer, const View& view, const Box& band, Image<Premultiplied>& pixels) {
+  if (layer.opacity >= 1.0f) {
+    paint_band(layer.shapes, view, band, pixels);
+    return;
+  }
+  Image<Premultiplied> own(pixels.size());
+  paint_band(layer.shapes, view, band, own);
+  for (std::size_t i = 0; i < own.pixels().size(); ++i) {
+    const Premultiplied& top = own.pixels()[i];
+    Premultiplied& p = pixels.pixels()[i];
+    const float keep = 1.0f - layer.opacity * top.alpha;
+    p = {keep * p.color + layer.opacity * top.color, keep * p.alpha + layer.opacity * top.alpha};
   }
 }
 
@@ -176,7 +197,10 @@ Raster rasterize(const Drawing& drawing, const RasterOptions& options, const Mon
   }
   const View view{options.scale, options.shift};
   const ColorImage light = emitted_light(drawing, options, view, monitor);
-  const std::vector<BandShape> shapes = shapes_with_boxes(drawing.layers, Blend::Over, view);
+  std::vector<BandLayer> layers;
+  for (const Layer& layer : drawing.layers) {
+    if (layer.blend == Blend::Over) layers.push_back({shapes_with_boxes({&layer, 1}, Blend::Over, view), static_cast<float>(layer.opacity)});
+  }
   Raster out{ColorImage(options.size), Mask(options.size)};
   const int width = options.size.width, bands = (options.size.height + kBand - 1) / kBand;
   parallel_for(bands, [&](int b) {
@@ -189,7 +213,7 @@ Raster rasterize(const Drawing& drawing, const RasterOptions& options, const Mon
         else if (drawing.background) pixels(x, y - band.y0) = {*drawing.background, 1.0f};
       }
     }
-    paint_band(shapes, view, band, pixels);
+    for (const BandLayer& layer : layers) paint_layer(layer, view, band, pixels);
     for (int y = band.y0; y < band.y1; ++y) {
       for (int x = 0; x < width; ++x) {
         Premultiplied p = pixels(x, y - band.y0);

@@ -12,6 +12,8 @@ Shape stroke_shape(const Stroke& stroke, const Rgb& color, double tolerance, dou
 // `strokes` are the scene's at this moment of its growth, `front` is how far growth has come, px.
 std::vector<Layer> ink_layers(const PaintScene& scene, const std::vector<Stroke>& strokes, const Monitor& monitor);
 std::vector<Layer> vine_layers(const PaintScene& scene, const std::vector<Stroke>& strokes, double front, const Monitor& monitor);
+std::vector<Layer> woodcut_layers(const PaintScene& scene, const std::vector<Stroke>& strokes, const Monitor& monitor);
+std::vector<Layer> watercolor_layers(const PaintScene& scene, const std::vector<Stroke>& strokes, const Monitor& monitor);
 std::vector<Layer> lightning_layers(const PaintScene& scene, const std::vector<Stroke>& strokes, const Monitor& monitor);
 
 }  // namespace ramify

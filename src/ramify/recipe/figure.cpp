@@ -130,6 +130,7 @@ FigureRequest figure_from_recipe(const Recipe& recipe, const std::vector<std::st
   for (const RecipeInput& input : recipe.inputs) {
     if (input.role == "bitmap") request.bitmap = find_input(input, folders);
     if (input.role == "photo") request.painting.over = find_input(input, folders);
+    if (input.role == "fill") request.painting.fill = find_input(input, folders);
     if (input.role != "font") continue;
     // Fonts lie where the system keeps them; one with other bytes must be looked for like a picture.
     const std::string& name = request.options.source.font;

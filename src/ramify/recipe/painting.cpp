@@ -10,7 +10,9 @@
 #include "ramify/image/animation.h"
 #include "ramify/image/sample.h"
 #include "ramify/recipe/canvas.h"
+#include "ramify/exemplar/stroke_text.h"
 #include "ramify/recipe/exemplar_source.h"
+#include "ramify/recipe/painting_ground.h"
 
 namespace ramify {
 namespace fs = std::filesystem;
@@ -35,11 +37,38 @@ ColorImage covering(const ColorImage& photo, Size size) {
   return crop(resize(photo, scaled), (scaled.width - size.width) / 2, (scaled.height - size.height) / 2, size.width, size.height);
 }
 
-void load_over(LoadedPainting& out, Size canvas, const Monitor& monitor) {
+Vec2 foot_of(const Skeleton& skeleton) {
+  for (const Node& node : skeleton.nodes()) {
+    if (node.parent == kNone) return node.xy();
+  }
+  return Vec2::Zero();
+}
+
+// The skeleton's first root stands at a point of the photo; pixels of the canvas are as large as --scale says.
+void place(const Skeleton& skeleton, LoadedPainting& out) {
+  const PaintingOptions& o = out.request.options;
+  const std::vector<Vec2> points = parse_points("at", o.at);
+  if (points.size() != 1) throw OptionError("at", "'" + printable(o.at, 60) + "'", "expected one point \"x,y\" in px of the photo");
+  const Vec2 at = points[0];
+  if (at.x() < 0.0 || at.y() < 0.0 || at.x() > out.size.width - 1 || at.y() > out.size.height - 1) {
+    throw OptionError("at", o.at, "lies outside the photo of " + std::to_string(out.size.width) + "x" + std::to_string(out.size.height) + " px");
+  }
+  out.scale = o.scale;
+  out.shift = at + Vec2(0.5, 0.5) - o.scale * (foot_of(skeleton) + Vec2(0.5, 0.5));
+}
+
+void load_over(LoadedPainting& out, const Skeleton& skeleton, const Monitor& monitor) {
+  const Size canvas = skeleton.size;
   const PaintingRequest& request = out.request;
   const Photo photo = load_photo(request.over, request.limits, monitor);
   out.recipe.inputs.push_back(file_input("photo", request.over));
   out.files.push_back(request.over);
+  if (!request.options.at.empty()) {
+    out.size = photo.color.size();
+    place(skeleton, out);
+    out.over = photo.color;
+    return;
+  }
   const bool sized = !request.options.size.empty() || request.options.scale != 1.0;
   if (!sized) {
     out.size = photo.color.size();
@@ -67,8 +96,47 @@ Raster raster_at(const LoadedPainting& painting, double growth, const Monitor& m
   options.size = painting.size;
   options.scale = painting.scale;
   options.shift = painting.shift;
-  if (!painting.over.empty()) options.over = &painting.over;
-  return rasterize(draw_painting(painting.scene, growth, monitor), options, monitor);
+  const double softness = painting.request.options.soften;
+  const bool apart = !painting.fill.empty() || softness > 0.0;  // from its ground until it is finished
+  if (!painting.over.empty() && !apart) options.over = &painting.over;
+  Drawing drawing = draw_painting(painting.scene, growth, monitor);
+  if (!apart) return rasterize(drawing, options, monitor);
+  drawing.background.reset();
+  Raster out = rasterize(drawing, options, monitor);
+  if (!painting.fill.empty()) fill_drawn(out, painting.fill, painting.shift);
+  soften(out, softness);
+  if (!painting.over.empty()) lay_over(out, painting.over);
+  else if (painting.scene.background) lay_over(out, ColorImage(out.color.size(), *painting.scene.background));
+  return out;
+}
+
+// The scenes of what stands behind: the same style and canvas.
+void load_behind(LoadedPainting& out, Size canvas, const PaintOptions& paint, const Monitor& monitor) {
+  for (std::size_t i = 0; i < out.request.behind.size(); ++i) {
+    const std::string& path = out.request.behind[i];
+    const Skeleton skeleton = load_any_skeleton(path).skeleton;
+    if (skeleton.empty() || skeleton.dim != 2) throw InputError(printable(path, 300), "holds no flat skeleton to paint behind the other");
+    if (skeleton.size != canvas) {
+      throw InputError(printable(path, 300), "has a canvas of " + std::to_string(skeleton.size.width) + "x" + std::to_string(skeleton.size.height) +
+                       " px, the skeleton before it one of " + std::to_string(canvas.width) + "x" + std::to_string(canvas.height) + " px");
+    }
+    out.recipe.inputs.push_back(file_input("behind", path));
+    out.files.push_back(path);
+    out.scene.behind.push_back(prepare_painting(skeleton, paint, Rng(out.recipe.seed).child("behind", i), monitor));
+  }
+}
+
+void load_fill(LoadedPainting& out, Size canvas) {
+  const PaintingRequest& request = out.request;
+  const ColorImage fill = load_image(request.fill, request.limits).color;
+  if (std::abs(static_cast<double>(fill.width()) * canvas.height - static_cast<double>(fill.height()) * canvas.width) > 0.02 * fill.width() * canvas.height) {
+    throw InputError(printable(request.fill, 300), "has other proportions than the canvas of " + std::to_string(canvas.width) + "x" +
+                     std::to_string(canvas.height) + " px; render the skeleton at its own size");
+  }
+  const Size shown{std::max(1, static_cast<int>(std::lround(out.scale * canvas.width))), std::max(1, static_cast<int>(std::lround(out.scale * canvas.height)))};
+  out.fill = fill.size() == shown ? fill : resize(fill, shown);
+  out.recipe.inputs.push_back(file_input("fill", request.fill));
+  out.files.push_back(request.fill);
 }
 
 bool is_opaque(const LoadedPainting& painting) { return painting.scene.background || !painting.over.empty(); }
@@ -80,6 +148,8 @@ std::vector<OptionField> describe(PaintingOptions& o) {
   for (OptionField& field : std::vector<OptionField>{
            text("size", o.size, "Picture, WIDTHxHEIGHT in px; the canvas is fitted into it [canvas times --scale]"),
            number("scale", o.scale, 0.01, 100, "", "Picture pixels for every pixel of the canvas."),
+           text("at", o.at, "With --over: where on the photo the first root stands, \"x,y\" in px; --scale is the drawing's size then [fitted into the photo]"),
+           number("soften", o.soften, 0, 100, "px", "Blurs the drawing, to stand in a soft painting."),
            number("depth", o.depth, 8, 32, "bits", "8, 16 or 32 bits a channel."),
            number("growth", o.growth, 0, 1, "", "Draws an unfinished painting: 0 = nothing yet, 1 = all."),
            flag("animate", o.animate, "Lets it grow from its roots: an animated .webp, or numbered .png or .svg frames."),
@@ -107,6 +177,19 @@ void check_painting(PaintingRequest& request, const std::string& output) {
   }
   if (!request.over.empty() && svg) throw OptionError("over", "", "an .svg holds no photo; write a picture, or paint without it and place it over the photo");
   if (!request.over.empty() && o.paint.background != "none") throw OptionError("background", o.paint.background, "has no effect beside --over; give one of them");
+  if (!o.at.empty()) {
+    if (request.over.empty()) throw OptionError("at", o.at, "has no effect without --over");
+    if (!o.size.empty()) throw OptionError("size", o.size, "has no effect beside --at; the picture is as large as the photo");
+  }
+  if (o.paint.palette == "photo" && request.over.empty()) throw OptionError("palette", "photo", "takes its colours from a photo; name one by --over");
+  if (svg && o.soften > 0.0) throw OptionError("soften", number_text(o.soften), "has no effect on .svg");
+  if (!request.fill.empty() && svg) throw OptionError("fill", "", "an .svg holds no picture; write .png");
+  if (o.paint.style == PaintStyle::Lightning) {
+    if (o.soften > 0.0) throw OptionError("soften", number_text(o.soften), "has no effect on --style lightning");
+    if (!request.fill.empty()) throw OptionError("fill", "", "has no effect on --style lightning");
+    if (!request.behind.empty()) throw OptionError("behind", "", "has no effect on --style lightning: light hides nothing");
+  }
+  if (!request.behind.empty() && !request.over.empty()) throw OptionError("behind", "", "needs a plain ground; paint what stands behind first and give that picture to --over");
   const std::string kind = fs::path(output).extension().string();
   if ((kind == ".jpg" || kind == ".jpeg") && request.over.empty() && o.paint.background == "none") {
     throw OptionError("output", "'" + printable(output, 200) + "'", "JPEG cannot hold transparency; give --background COLOUR or write .png");
@@ -141,8 +224,12 @@ LoadedPainting lay_out_painting(const PaintingRequest& request, const Skeleton& 
     fit_canvas(canvas, out);
   }
   check_canvas(out.size, request.limits, kBytesPerPixel);
-  if (!request.over.empty()) load_over(out, canvas, monitor);
-  out.scene = prepare_painting(skeleton, o.paint, Rng(out.recipe.seed).child("paint"), monitor, shape);
+  if (!request.over.empty()) load_over(out, skeleton, monitor);
+  if (!request.fill.empty()) load_fill(out, canvas);
+  PaintOptions paint = o.paint;
+  if (paint.palette == "photo") paint.palette = palette_of_photo(out.over);
+  out.scene = prepare_painting(skeleton, paint, Rng(out.recipe.seed).child("paint"), monitor, shape);
+  load_behind(out, canvas, paint, monitor);
   return out;
 }
 
@@ -191,6 +278,8 @@ PaintingRequest painting_from_recipe(const Recipe& recipe, const std::vector<std
   for (const RecipeInput& input : recipe.inputs) {
     if (input.role == "skeleton") request.skeleton = find_input(input, folders);
     if (input.role == "photo") request.over = find_input(input, folders);
+    if (input.role == "fill") request.fill = find_input(input, folders);
+    if (input.role == "behind") request.behind.push_back(find_input(input, folders));
   }
   return request;
 }

@@ -17,6 +17,8 @@ struct PaintingOptions {
   PaintOptions paint;
   std::string size;       // "WIDTHxHEIGHT" px; the canvas is fitted into it; empty = canvas times scale
   double scale = 1.0;     // picture px per canvas px
+  std::string at;         // "x,y" px of the photo where the first root stands; empty = the canvas is fitted into the photo
+  double soften = 0.0;    // px of the picture, sigma: as soft as the painting it stands in
   int depth = 8;          // bits a channel
   double growth = 1.0;    // 0..1, the moment that is drawn
   bool animate = false;   // every moment
@@ -29,6 +31,8 @@ std::vector<OptionField> describe(PaintingOptions& options);
 struct PaintingRequest {
   std::string skeleton;  // skeleton or annotation
   std::string over;      // photo to paint on, or empty
+  std::string fill;      // picture of the canvas that shows through the branches, or empty
+  std::vector<std::string> behind;  // skeletons on the same canvas, painted first, the farthest at the front
   PaintingOptions options;
   LoadLimits limits;
 };
@@ -40,6 +44,7 @@ struct LoadedPainting {
   double scale = 1.0;           // picture px per canvas px
   Vec2 shift = Vec2::Zero();    // px of the picture
   ColorImage over;              // of the picture's size, or empty
+  ColorImage fill;              // as large as the canvas is shown, or empty
   Recipe recipe;
   std::vector<std::string> files;  // paths that were read
 };
