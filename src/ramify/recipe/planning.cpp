@@ -177,19 +177,25 @@ ScaledPicture load_scaled(const StylizeRequest& request) {
   return out;
 }
 
-std::optional<Vec2> root_of(const StylizeRequest& request, double scale) {
+// size: px of the scaled picture.
+std::optional<Vec2> root_of(const StylizeRequest& request, double scale, Size size) {
   if (request.root.empty()) return std::nullopt;
   const std::vector<Vec2> points = parse_points("root", request.root);
   if (points.size() != 1) throw OptionError("root", "'" + printable(request.root, 60) + "'", "expected one point \"x,y\"");
-  return points[0] * scale;
+  const Vec2 root = points[0] * scale;
+  if (root.x() < 0.0 || root.y() < 0.0 || root.x() > size.width - 0.5 || root.y() > size.height - 0.5) {
+    throw OptionError("root", "'" + printable(request.root, 60) + "'", "lies outside the picture of " + std::to_string(std::lround(size.width / scale)) +
+                      "x" + std::to_string(std::lround(size.height / scale)) + " px");
+  }
+  return root;
 }
 
 void grow_layers(const StylizeRequest& request, double scale, std::uint64_t seed, const Monitor& monitor, StylizedPicture& out) {
-  const Size size = request.size.empty() ? Size{900, 1100} : canvas_size(request.size);
+  const Size size = !out.importance.empty() ? out.importance.size() : request.size.empty() ? Size{900, 1100} : canvas_size(request.size);
   std::optional<PictureTree> first;
   for (int i = 0; i < request.layers; ++i) {
     const Monitor part = monitor.stage("tree", static_cast<double>(i) / request.layers, static_cast<double>(i + 1) / request.layers);
-    PictureTree tree = grow_picture_tree(out.importance, size, root_of(request, scale), first ? &*first : nullptr, request.tree_options,
+    PictureTree tree = grow_picture_tree(out.importance, size, root_of(request, scale, size), first ? &*first : nullptr, request.tree_options,
                                          Rng(seed).child("tree", static_cast<std::uint64_t>(i)), part);
     out.layers.push_back(tree.skeleton);
     if (!first) first = std::move(tree);
@@ -214,7 +220,7 @@ StylizedPicture stylize_picture(const StylizeRequest& request, std::uint64_t see
     grow_layers(request, picture.scale, seed, monitor.stage("trees", 0.1, 1.0), out);
     return out;
   }
-  Stylization made = stylize(out.importance, picture.allowed, root_of(request, picture.scale), request.stylize, Rng(seed).child("stylize"),
+  Stylization made = stylize(out.importance, picture.allowed, root_of(request, picture.scale, out.importance.size()), request.stylize, Rng(seed).child("stylize"),
                              monitor.stage("stylize", 0.1, 0.9));
   out.layers.push_back(emphasize(dendrite_skeleton(made.dendrite, 1.0, {}), out.importance, request.thickness));
   out.roots = {made.dendrite.structure.forest.nodes.front()};
