@@ -193,11 +193,14 @@ void add_render(CLI::App& root, Chosen& chosen) {
   add_exemplar_options(*app, *a);
   app->add_option("skeleton", a->request.skeleton, "Skeleton to render (.json .swc .svg)")->required();
   app->add_option("-o,--output", a->output, "Picture to write (.png .jpg .tif .exr .webp)")->required()->type_name("FILE");
-  a->flags.add(*app, {text("size", a->request.options.size, "Canvas WIDTHxHEIGHT in px [the skeleton's]")}, "Output");
+  a->flags.add(*app, {text("size", a->request.options.size, "Canvas WIDTHxHEIGHT in px [the skeleton's, scaled]")}, "Output");
+  a->flags.add(*app, describe(a->request.options.fit), "Fitting the skeleton to the photo");
   add_count(*app, *a);
+  app->add_option("--fitted", a->skeleton_file, "Also write the skeleton as it was rendered (.json .swc .svg .geojson)")->type_name("FILE")->group("Output");
   add_picture_options(*app, *a);
   add_shared(*app, chosen.shared);
   app->footer("Examples:\n  ramify render builtin:lightning river.swc -o lightning_river.png\n"
+              "  ramify figure --text Storm -o storm.json && ramify render builtin:lightning storm.json --restyle 0.6 -o storm.png\n"
               "  ramify render crack.ramify.json grown.json --background new -o crack.png");
   app->callback([&chosen, a] {
     chosen.work = [&chosen, a](const Monitor& m) { return make_all(*a, chosen.shared, "render", kPictureExtensions, m); };

@@ -193,7 +193,7 @@ PlacementPlan place_fragments(const FragmentLibrary& library, const Skeleton& sk
                               const TargetOptions& target_options, const PlacementOptions& options, Rng rng,
                               const Monitor& monitor) {
   PlacementPlan plan;
-  plan.skeleton = match_radii(skeleton, library);
+  plan.skeleton = options.fit_radii ? match_radii(skeleton, library) : skeleton;
   plan.curves = branch_curves(plan.skeleton);
   plan.field = measure_branch_field(plan.curves, plan.skeleton.size);
   TargetOptions cover = target_options;

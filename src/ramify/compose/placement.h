@@ -25,6 +25,7 @@ struct PlacementOptions {
   int reuse_cap = 4;             // uses of one place of the photo
   double variation = 0.01;       // scale of the Gumbel noise added to every cost: another seed, another choice
   double leave_out = 0.0;        // disc radii; sources nearer than this to the target's own or mirrored place are banned
+  bool fit_radii = true;         // ComposeOptions::fit_radii
   bool mirror = true;            // also try every source mirrored (never where light decides)
   bool paper_greedy = false;     // shape + summed overlap colour, random among the best `paper_best`
   int paper_best = 2;

@@ -11,6 +11,7 @@
 #include "ramify/core/version.h"
 #include "ramify/geometry/polyline.h"
 #include "ramify/geometry/svg_path.h"
+#include "ramify/growth/restyle.h"
 #include "ramify/image/filter.h"
 #include "ramify/image/image_io.h"
 #include "ramify/image/sample.h"
@@ -196,7 +197,7 @@ std::vector<OptionField> describe(StageOptions& options) {
   std::vector<OptionField> fields{text("size", options.size, "Canvas, WIDTHxHEIGHT in px."),
                                   text("roots", options.roots, "Where branches start."),
                                   number("depth", options.depth, 0, 32, "bits", "Bits a channel.")};
-  for (const auto& part : {describe(options.learn), describe(options.grow), describe(options.compose)}) {
+  for (const auto& part : {describe(options.learn), describe(options.grow), describe(options.fit), describe(options.compose)}) {
     fields.insert(fields.end(), part.begin(), part.end());
   }
   return fields;
@@ -206,6 +207,7 @@ void check_request(PictureRequest& request) {
   check_options(describe(request.options));
   if (!request.options.size.empty()) check_canvas(parse_canvas(request.options.size), request.limits);
   parse_roots(request.options.roots);
+  check_fit(request.options.fit);
   const int depth = request.options.depth;
   if (depth != 0 && depth != 8 && depth != 16 && depth != 32) {
     throw OptionError("depth", std::to_string(depth), "expected 8, 16 or 32");
@@ -229,8 +231,15 @@ LoadedRequest load_request(const PictureRequest& request, const Monitor& monitor
     add_input(loaded, "skeleton", request.skeleton);
   }
   if (!request.options.size.empty()) size = parse_canvas(request.options.size);
+  if (loaded.skeleton) {
+    loaded.skeleton->size = size;
+    if (loaded.skeleton->empty()) throw InputError(printable(request.skeleton, 300), "holds no branch to render");
+    const bool held = !request.options.size.empty();
+    loaded.skeleton = fit_skeleton(std::move(*loaded.skeleton), loaded.source.exemplar.skeleton, request.options.fit, held, monitor);
+    size = loaded.skeleton->size;
+    loaded.request.options.compose.fit_radii = false;
+  }
   check_canvas(size, request.limits);
-  if (loaded.skeleton) loaded.skeleton->size = size;
   loaded.target.size = size;
   loaded.target.roots = parse_roots(request.options.roots);
   load_guides(loaded, monitor);
@@ -238,9 +247,9 @@ LoadedRequest load_request(const PictureRequest& request, const Monitor& monitor
   if (request.verb == "grow") {
     loaded.scene.habitat = find_habitat(exemplar, HabitatOptions{}, Rng(0).child("scene").child("habitat"), monitor.stage("habitat", 0.2, 0.9));
   } else {
-    loaded.scene = prepare_scene(exemplar, request.options.compose, monitor.stage("scene", 0.2, 0.9));
+    loaded.scene = prepare_scene(exemplar, loaded.request.options.compose, monitor.stage("scene", 0.2, 0.9));
   }
-  if (!loaded.skeleton) {
+  if (!loaded.skeleton || request.options.fit.restyle > 0.0) {
     loaded.style = learn_style(exemplar.skeleton, request.options.learn, monitor.stage("learn", 0.9, 1.0),
                                node_places(exemplar.skeleton, loaded.scene.habitat));
   }
@@ -260,8 +269,9 @@ Picture make_picture(const LoadedRequest& loaded, std::uint64_t seed, const Moni
   }
   Picture picture;
   picture.recipe = make_recipe(loaded, seed);
-  picture.skeleton = loaded.skeleton ? *loaded.skeleton
-                                     : grow_on_plan(loaded, plan, rng.child("grow"), monitor.stage("grow", 0.0, 0.1));
+  const Monitor shaping = monitor.stage(loaded.skeleton ? "restyle" : "grow", 0.0, 0.1);
+  picture.skeleton = loaded.skeleton ? restyle_skeleton(*loaded.skeleton, loaded.style, options.fit.restyle, rng.child("restyle"), shaping)
+                                     : grow_on_plan(loaded, plan, rng.child("grow"), shaping);
   if (picture_wanted) {
     picture.composite = compose_image(exemplar, loaded.scene, plan, picture.skeleton, options.compose, rng.child("compose"),
                                       monitor.stage("compose", 0.1, 0.95));

@@ -10,6 +10,7 @@
 #include "ramify/core/monitor.h"
 #include "ramify/growth/grow.h"
 #include "ramify/recipe/exemplar_source.h"
+#include "ramify/recipe/foreign_skeleton.h"
 #include "ramify/recipe/recipe.h"
 #include "ramify/skeleton/skeleton.h"
 #include "ramify/style/style.h"
@@ -19,6 +20,7 @@ namespace ramify {
 struct StageOptions {
   LearnStyleOptions learn;
   GrowOptions grow;
+  SkeletonFitOptions fit;     // render only
   ComposeOptions compose;
   std::string size;   // "WIDTHxHEIGHT" px; empty = the exemplar's, for render the skeleton's
   std::string roots;  // "x,y[,direction_deg[,radius]] …" px; empty = the style's own
@@ -41,8 +43,8 @@ struct LoadedRequest {
   PictureRequest request;
   LoadedExemplar source;
   GrowthTarget target;                // size, roots, density, guide
-  std::optional<Skeleton> skeleton;   // render only
-  Style style;                        // synth and grow
+  std::optional<Skeleton> skeleton;   // render only: fitted to the exemplar but for its bends
+  Style style;                        // synth, grow, and render that restyles
   ComposeScene scene;                 // synth and render; for grow its habitat alone
   std::vector<RecipeInput> inputs;
   std::vector<std::string> files;     // paths that were read
