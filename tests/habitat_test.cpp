@@ -90,6 +90,34 @@ TEST_CASE("blobs are outliers and branches are not") {
   }
 }
 
+TEST_CASE("a cloud over wide water is an outlier, the water around it and a thin creek are not") {
+  Exemplar e;
+  e.polarity = Polarity::Bright;
+  e.skeleton = Skeleton(Size{kSide, kSide});
+  for (int k = 0; k < 32; ++k) e.skeleton.append({Vec3(10.0 * k, 160.0, 0.0), 30.0, k - 1, 0, 0});
+  const int creek = e.skeleton.append({Vec3(160.0, 60.0, 0.0), 3.0, kNone, 0, 0});
+  e.skeleton.append({Vec3(160.0, 100.0, 0.0), 3.0, creek, 0, 0});
+  const Mask water = branch_zone(e.skeleton, {kSide, kSide}, [](double r) { return r; });
+  Rng rng(3);
+  e.photo.color = ColorImage(kSide, kSide);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const float grain = 0.01f * static_cast<float>(rng.normal());
+      Rgb c = water(x, y) ? Rgb{0.55f + grain, 0.42f + grain, 0.3f + grain}
+                          : Rgb{0.05f + grain, 0.15f + grain, 0.05f + grain};
+      if (std::hypot(x - 100.0, y - 155.0) < 4.0 || std::hypot(x - 160.0, y - 80.0) < 2.0) c = {1.0f, 1.0f, 1.0f};
+      e.photo.color(x, y) = c;
+    }
+  }
+  e.regions = Image<std::uint8_t>(kSide, kSide, static_cast<std::uint8_t>(RegionRole::Habitat));
+  HabitatOptions options;
+  options.automatic = false;
+  const Habitat habitat = find_habitat(e, options, Rng(1), {});
+  CHECK(habitat.outliers(100, 155) == 255);
+  CHECK(habitat.outliers(160, 80) == 0);
+  CHECK(mean_of(habitat.outliers) < 0.003);  // the cloud with its margin covers 0.002
+}
+
 TEST_CASE("a line nobody annotated is shadow") {
   const Habitat habitat = find_habitat(disc_exemplar(false, true), {}, Rng(1), {});
   int hit = 0;

@@ -161,6 +161,27 @@ Mask hysteresis(const Mask& weak, const Mask& strong, Keep keep) {
   return out;
 }
 
+// Blobs that stand out from their surround wherever `banned` is 0.
+Mask find_blobs(const ColorImage& lab, const Mask& banned) {
+  ScalarImage weight(lab.size());
+  for (std::size_t i = 0; i < weight.pixels().size(); ++i) weight.pixels()[i] = banned.pixels()[i] ? 0.0f : 1.0f;
+  const ColorImage slow = masked_blur(lab, weight, 12.0);
+  ScalarImage apart(lab.size());
+  for (std::size_t i = 0; i < apart.pixels().size(); ++i)
+    apart.pixels()[i] = delta_e(lab.pixels()[i], slow.pixels()[i]);
+  const auto [middle, spread] = robust_spread(apart, banned);
+  const float strong = static_cast<float>(std::max(22.0, middle + 9.0 * spread)), weak = 0.5f * strong;
+  Mask candidates = threshold(apart, weak);
+  for (std::size_t i = 0; i < candidates.pixels().size(); ++i) {
+    if (banned.pixels()[i]) candidates.pixels()[i] = 0;
+  }
+  const double largest = 0.01 * lab.width() * lab.height();
+  return hysteresis(candidates, threshold(apart, strong), [&](int pixels, int w, int h) {
+    const double longer = std::max(w, h), thickness = pixels / longer;
+    return pixels >= 4 && pixels < largest && longer < 3.0 * thickness + 4.0;  // no ridges: elongation below 3
+  });
+}
+
 // Texture is found all over the ground; the twigs of a crown before the sky are as dense, but in one place.
 bool is_everywhere(const Mask& shadow, const Mask& without, double mean_share) {
   constexpr int kCell = 64;  // px
@@ -240,26 +261,12 @@ Mask find_outside(const ColorImage& photo, const Skeleton& skeleton, const Habit
   return refine_border(photo, small, outside);
 }
 
-Mask find_outliers(const ColorImage& photo, const Mask& branches, const Mask& outside) {
+Mask find_outliers(const ColorImage& photo, const Mask& branches, const Mask& beside, const Mask& outside) {
   const ColorImage lab = lab_from_srgb(gaussian_blur(photo, 1.2));
-  const Mask banned = add(branches, outside);
-  ScalarImage weight(photo.size());
-  for (std::size_t i = 0; i < weight.pixels().size(); ++i) weight.pixels()[i] = banned.pixels()[i] ? 0.0f : 1.0f;
-  const ColorImage slow = masked_blur(lab, weight, 12.0);
-  ScalarImage apart(photo.size());
-  for (std::size_t i = 0; i < apart.pixels().size(); ++i) apart.pixels()[i] = delta_e(lab.pixels()[i], slow.pixels()[i]);
-  const auto [middle, spread] = robust_spread(apart, banned);
-  const float strong = static_cast<float>(std::max(22.0, middle + 9.0 * spread)), weak = 0.5f * strong;
-  Mask candidates = threshold(apart, weak);
-  for (std::size_t i = 0; i < candidates.pixels().size(); ++i) {
-    if (banned.pixels()[i]) candidates.pixels()[i] = 0;
-  }
-  const double largest = 0.01 * photo.width() * photo.height();
-  const Mask blobs = hysteresis(candidates, threshold(apart, strong), [&](int pixels, int w, int h) {
-    const double longer = std::max(w, h), thickness = pixels / longer;
-    return pixels >= 4 && pixels < largest && longer < 3.0 * thickness + 4.0;  // no ridges: elongation below 3
-  });
-  return dilate(blobs, 3.0);
+  constexpr double kBank = 4.0;  // px of a branch's rim that are no ground to compare with
+  const Mask water = dilate(erode(branches, 2.0 * kBank), kBank);
+  const Mask on_ground = find_blobs(lab, add(beside, outside)), on_water = find_blobs(lab, add(invert(water), outside));
+  return dilate(add(on_ground, on_water), 3.0);
 }
 
 Mask find_shadow(const ColorImage& photo, Polarity polarity, const Mask& branches, const Mask& outside) {
@@ -331,9 +338,10 @@ Habitat find_habitat(const Exemplar& exemplar, const HabitatOptions& options, Rn
     if (is(i, RegionRole::Ignore) || is(i, RegionRole::Landmark)) ignored.pixels()[i] = 255;
   }
   const Mask branches = branch_zone(exemplar.skeleton, photo.size(), [](double r) { return 1.3 * r + 2.0; });
+  const Mask inside = branch_zone(exemplar.skeleton, photo.size(), [](double r) { return r; });
   // The glow and the banks beside a branch are no blobs.
   const Mask beside = branch_zone(exemplar.skeleton, photo.size(), [](double r) { return 2.5 * r + 8.0; });
-  habitat.outliers = add(find_outliers(photo, beside, habitat.outside), ignored);
+  habitat.outliers = add(find_outliers(photo, inside, beside, habitat.outside), ignored);
   monitor.report(0.7);
   Apron apron = measure_apron(exemplar, habitat.outside);
   Mask shadow = find_shadow(photo, exemplar.polarity, branches, habitat.outside);

@@ -38,7 +38,9 @@ Habitat find_habitat(const Exemplar& exemplar, const HabitatOptions& options, Rn
 // The steps, each of use by itself.
 Mask find_outside(const ColorImage& photo, const Skeleton& skeleton, const HabitatOptions& options, Rng rng,
                   const Monitor& monitor);
-Mask find_outliers(const ColorImage& photo, const Mask& branches, const Mask& outside);
+// Blobs off the branches and what lies right beside them, and blobs within branches more than 16 px wide (clouds over
+// water).
+Mask find_outliers(const ColorImage& photo, const Mask& branches, const Mask& beside, const Mask& outside);
 Mask find_shadow(const ColorImage& photo, Polarity polarity, const Mask& branches, const Mask& outside);
 // Share of these lines that lie in wide things of the branches' own colours (ribs of a snowy mountain): such cannot be
 // lifted by themselves, because a ragged rest of the mountain would stay.
