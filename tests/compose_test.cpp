@@ -209,6 +209,34 @@ TEST_CASE("sources near their own place are banned when asked") {
   }
 }
 
+TEST_CASE("where light shapes the branches nothing is mirrored or turned, but branches are entered from either end") {
+  // A ridge up and down across the page, drawn from top to bottom, dark to its right.
+  const Size size{240, 300};
+  Skeleton ridge(size);
+  int parent = kNone;
+  for (int y = 2; y < size.height - 2; y += 4) {
+    parent = ridge.append({Vec3(120.0 + 30.0 * std::sin(y / 40.0), y, 0.0), 4.0, parent});
+  }
+  Exemplar exemplar = drawn_exemplar(ridge, 12);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      if (x > 120.0 + 30.0 * std::sin(y / 40.0) + 4.0) exemplar.photo.color(x, y) = 0.6f * exemplar.photo.color(x, y);
+    }
+  }
+  Skeleton upwards(size);  // the same from bottom to top
+  parent = kNone;
+  for (int i = ridge.count() - 1; i >= 0; --i) parent = upwards.append({ridge[i].position, ridge[i].radius, parent});
+  const Dressed d = dress(exemplar, upwards);
+  REQUIRE(is_shaded(d.library));
+  REQUIRE(d.plan.placements.size() > 5);
+  for (const Placement& p : d.plan.placements) {
+    CHECK_FALSE(p.mirrored);
+    CHECK(std::abs(p.angle) <= 25.0 * kPi / 180.0);
+    const Vec2 beside = p.photo_from_canvas(p.centre + Vec2(15, 0)) - p.photo_from_canvas(p.centre - Vec2(15, 0));
+    CHECK(beside.x() > 0.0);  // the dark side stays on its side
+  }
+}
+
 TEST_CASE("seeds change choices and threads do not") {
   const Exemplar exemplar = drawn_exemplar(wavy_skeleton({260, 180}, 3.0), 8);
   const Skeleton target = turned(exemplar.skeleton, 1.0, {260, 260});

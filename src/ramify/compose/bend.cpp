@@ -33,7 +33,7 @@ struct Rows {
 Rows constraint_rows(const Fragment& source, const Fragment& target, const SourceCandidate& candidate) {
   Rows rows;
   for (std::size_t l = 0; l < target.shape.size(); ++l) {
-    const ShapeSample &s = source.shape[paired_sample(source, candidate.mirrored, l)], &t = target.shape[l];
+    const ShapeSample &s = source.shape[paired_sample(source, candidate.backwards, l)], &t = target.shape[l];
     rows.add(candidate, target.radius, t.offset, s.offset);
     if (t.radius <= 0.8) continue;
     // The source's normal may point to the other bank, above all when it is mirrored.
@@ -59,7 +59,8 @@ std::vector<Vec2> paper_displacements(const WarpGrid& warp, const Fragment& sour
     const Vec2& offset = target.shape[l].offset;
     if (offset.norm() > target.radius) continue;
     places.push_back(target.centre + offset);
-    differences.push_back(source.shape[paired_sample(source, candidate.mirrored, l)].offset - photo_offset(candidate, offset));
+    differences.push_back(source.shape[paired_sample(source, candidate.backwards, l)].offset -
+                          photo_offset(candidate, offset));
   }
   return laplacian_displacements(warp, places, differences);
 }

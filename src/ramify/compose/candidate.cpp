@@ -15,16 +15,17 @@ constexpr std::size_t kKept = 24;
 constexpr std::size_t kCompared = 1200;
 constexpr std::size_t kEnough = 60;           // candidates of nearly the same width
 constexpr double kLitTurn = 25.0 * kPi / 180;  // rad, by which light from one side may turn unseen (PICTURES 8)
-constexpr int kEnoughUpright = 24;            // candidates turned less, for which none that is turned more is looked at
-constexpr int kDiscGrid = 9;                  // disagreement is sampled on 19 x 19 points
+constexpr std::ptrdiff_t kEnoughUpright = 24;  // candidates turned less, for which no other width is looked at
+constexpr std::ptrdiff_t kFewUpright = 4;      // fewer leave no choice
+constexpr int kDiscGrid = 9;                   // disagreement is sampled on 19 x 19 points
 
 Vec2 mirrored(const Vec2& v, bool mirror) { return mirror ? Vec2(-v.x(), v.y()) : v; }
 
-BranchShape shape_of(const Fragment& f, bool mirror) {
+BranchShape shape_of(const Fragment& f, bool mirror, bool backwards) {
   BranchShape shape;
   shape.count = f.shape.size();
   for (std::size_t l = 0; l < shape.count; ++l) {
-    const ShapeSample& sample = f.shape[paired_sample(f, mirror, l)];
+    const ShapeSample& sample = f.shape[paired_sample(f, backwards, l)];
     shape.points[l] = mirrored(sample.offset, mirror);
     shape.radii[l] = sample.radius;
   }
@@ -92,54 +93,71 @@ std::vector<int> thinned(const CandidateContext& context, const std::vector<int>
   return kept;
 }
 
-// The sources of the target's kind and of nearly its width; the limits widen until there are enough.
-std::vector<int> comparable_sources(const CandidateContext& context, const Fragment& target, int target_index,
-                                    bool any_end) {
+// The sources of the target's kind, with the difference of the logarithms of their widths.
+std::vector<std::pair<double, int>> sources_of_kind(const CandidateContext& context, const Fragment& target,
+                                                    bool any_end) {
   std::vector<std::pair<double, int>> all;
   for (std::size_t j = 0; j < context.shapes.size(); ++j) {
     const Fragment& source = context.library.fragments[j];
     if (!same_kind(source, target, any_end) || is_banned(context, source, target)) continue;
     all.emplace_back(std::abs(context.shapes[j].log_radius - std::log(target.branch_radius + 1.0)), static_cast<int>(j));
   }
-  for (const double limit : {0.25, 0.5, 1.0, 3.0, 1e9}) {
-    std::vector<int> found;
-    for (const auto& [difference, source] : all) {
-      if (difference <= limit) found.push_back(source);
-    }
-    if (found.size() * 2 >= kEnough || found.size() == all.size()) return thinned(context, found, target_index);
-  }
-  return {};
+  return all;
 }
 
-std::vector<SourceCandidate> match_shapes(const CandidateContext& context, const Fragment& target, int target_index, bool any_end) {
+// All ways to lay the sources on the target. Where light decides nothing is mirrored, but a branch may be entered from
+// its other end: what runs down the page serves what runs up, without being turned.
+std::vector<SourceCandidate> lay_on(const CandidateContext& context, const Fragment& target,
+                                    const std::vector<int>& sources) {
   const PlacementOptions& options = context.options;
-  const bool may_mirror = options.mirror && !is_shaded(context.library);
+  const bool shaded = is_shaded(context.library) && !options.paper_greedy;
   const double omega = options.paper_greedy ? 2.0 : 1.0;
-  const BranchShape wanted = shape_of(target, false);
+  const BranchShape wanted = shape_of(target, false, false);
   std::vector<SourceCandidate> found;
-  for (const int j : comparable_sources(context, target, target_index, any_end)) {
-    const double scale = scale_for(context.library.fragments[j], target);
-    for (int mirror = 0; mirror <= (may_mirror ? 1 : 0); ++mirror) {
-      const BranchShape& shape = mirror ? context.shapes[j].mirrored : context.shapes[j].straight;
-      SourceCandidate c = compare_shapes(shape, wanted, scale, target.radius, omega);
+  for (const int j : sources) {
+    const Fragment& source = context.library.fragments[j];
+    const auto lay = [&](const BranchShape& shape, bool mirror, bool backwards) {
+      SourceCandidate c = compare_shapes(shape, wanted, scale_for(source, target), target.radius, omega);
       c.source = j;
       c.mirrored = mirror;
+      c.backwards = backwards;
       c.cost = c.shape + (options.paper_greedy ? 0.0 : fitness_cost(context, c));
       found.push_back(c);
-    }
+    };
+    lay(context.shapes[j].straight, false, false);
+    if (options.mirror && !is_shaded(context.library))
+      lay(context.shapes[j].mirrored, true, source.kind == FragmentKind::Bank);
+    if (shaded && source.kind == FragmentKind::Along && !source.tip) lay(context.shapes[j].backwards, false, true);
   }
   return found;
 }
 
-// Light from one side betrays what was turned. The limit gives way step by step where the photo has too little that lies
-// as the target does.
-void keep_upright(std::vector<SourceCandidate>& candidates) {
-  for (double limit = kLitTurn; limit < kPi; limit *= 2.0) {
-    const auto turned = [&](const SourceCandidate& c) { return std::abs(c.angle) > limit; };
-    if (std::count_if(candidates.begin(), candidates.end(), turned) + kEnoughUpright > static_cast<std::ptrdiff_t>(candidates.size())) continue;
-    std::erase_if(candidates, turned);
-    return;
+// Candidates of nearly the target's width; the limits widen until there are enough. Light from one side betrays what
+// was turned: where it decides, sources of another width come before any that are turned more than a little, and that
+// limit gives way only where the photo has next to nothing that lies as the target does.
+std::vector<SourceCandidate> match_shapes(const CandidateContext& context, const Fragment& target, int target_index,
+                                          bool any_end) {
+  const bool upright = is_shaded(context.library) && !context.options.paper_greedy;
+  const std::vector<std::pair<double, int>> all = sources_of_kind(context, target, any_end);
+  std::vector<SourceCandidate> found;
+  const double turn = upright ? kLitTurn : 2.0 * kPi;
+  for (const double limit : {0.25, 0.5, 1.0, 3.0, 1e9}) {
+    std::vector<int> sources;
+    for (const auto& [difference, source] : all) {
+      if (difference <= limit) sources.push_back(source);
+    }
+    found = lay_on(context, target, thinned(context, sources, target_index));
+    const auto turned = [&](const SourceCandidate& c) { return std::abs(c.angle) > turn; };
+    const std::ptrdiff_t left =
+        std::count_if(found.begin(), found.end(), [&](const SourceCandidate& c) { return !turned(c); });
+    const bool last = sources.size() == all.size();
+    if (last && left < kFewUpright) return found;
+    if (last || (upright ? left >= kEnoughUpright : sources.size() * 2 >= kEnough)) {
+      std::erase_if(found, turned);
+      return found;
+    }
   }
+  return found;
 }
 
 void keep_best(std::vector<SourceCandidate>& candidates, std::size_t count) {
@@ -189,10 +207,6 @@ double tone_difference(const CandidateContext& context, const Fragment& target, 
 
 }  // namespace
 
-std::size_t paired_sample(const Fragment& source, bool mirror, std::size_t sample) {
-  return mirror && source.kind == FragmentKind::Bank ? source.shape.size() - 1 - sample : sample;
-}
-
 Vec2 photo_offset(const SourceCandidate& candidate, const Vec2& canvas_offset) {
   const Vec2 turned(candidate.cosine * canvas_offset.x() + candidate.sine * canvas_offset.y(),
                     candidate.cosine * canvas_offset.y() - candidate.sine * canvas_offset.x());
@@ -202,19 +216,24 @@ Vec2 photo_offset(const SourceCandidate& candidate, const Vec2& canvas_offset) {
 CandidateContext::CandidateContext(const FragmentLibrary& photo_library, const BranchField& canvas_field,
                                    const PlacementOptions& choices)
     : library(photo_library), field(canvas_field), options(choices), shapes(photo_library.fragments.size()) {
-  parallel_for(static_cast<int>(shapes.size()), [&](int j) {
-    const Fragment& f = library.fragments[j];
-    const double usual = usual_contrast(library, f.branch_radius);
-    shapes[j] = {shape_of(f, false), shape_of(f, true), std::log(f.branch_radius + 1.0),
-                 usual > 0.0 && f.kind < FragmentKind::Bank ? std::max(0.0, 0.9 - f.contrast / usual) : 0.0};
-  }, 64);
+  parallel_for(
+      static_cast<int>(shapes.size()),
+      [&](int j) {
+        const Fragment& f = library.fragments[j];
+        const double usual = usual_contrast(library, f.branch_radius);
+        const bool bank = f.kind == FragmentKind::Bank;  // mirrored, it runs backwards: the branch stays on its side
+        shapes[j] = {shape_of(f, false, false), shape_of(f, true, bank), shape_of(f, false, true),
+                     std::log(f.branch_radius + 1.0),
+                     usual > 0.0 && f.kind < FragmentKind::Bank ? std::max(0.0, 0.9 - f.contrast / usual) : 0.0};
+      },
+      64);
 }
 
 std::vector<SourceCandidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index) {
   std::vector<SourceCandidate> candidates = match_shapes(context, target, target_index, false);
   // A photo without a single free end: the branch is cut off where it has to end.
-  if (candidates.empty() && target.kind == FragmentKind::Along) candidates = match_shapes(context, target, target_index, true);
-  if (is_shaded(context.library) && !context.options.paper_greedy) keep_upright(candidates);
+  if (candidates.empty() && target.kind == FragmentKind::Along)
+    candidates = match_shapes(context, target, target_index, true);
   keep_best(candidates, kShapeSurvivors);
   const PlacementOptions& options = context.options;
   if (options.paper_greedy) return candidates;
@@ -222,7 +241,7 @@ std::vector<SourceCandidate> rank_candidates(const CandidateContext& context, co
     c.disagreement = mask_disagreement(context, target, c);
     c.cost += options.mask_weight * c.disagreement;
     c.cost += options.colour_weight * tone_difference(context, target, context.library.fragments[c.source]);
-    const double u = hash01(context.seed, target_index, 2 * c.source + c.mirrored);
+    const double u = hash01(context.seed, target_index, 4 * c.source + 2 * c.backwards + c.mirrored);
     c.cost -= options.variation * -std::log(-std::log(u * 0.999 + 0.0005));
   }
   keep_best(candidates, kKept);

@@ -12,7 +12,8 @@ namespace ramify {
 struct SourceCandidate {
   int source = kNone;
   bool mirrored = false;
-  double angle = 0.0;         // rad
+  bool backwards = false;           // the source's samples are taken in the other order
+  double angle = 0.0;               // rad
   double cosine = 1.0, sine = 0.0;  // of the angle
   double scale = 1.0;
   double shape = 0.0;         // squared px per sample, relative to the disc radius (paper 002, equation 1)
@@ -29,9 +30,9 @@ struct BranchShape {
 
 // A source, ready to be compared.
 struct SourceShape {
-  BranchShape straight, mirrored;
-  double log_radius = 0.0;   // log(branch radius + 1)
-  double faintness = 0.0;    // 0.9 minus the share of the usual contrast, at least 0
+  BranchShape straight, mirrored, backwards;  // backwards: straight, entered from its end
+  double log_radius = 0.0;                    // log(branch radius + 1)
+  double faintness = 0.0;                     // 0.9 minus the share of the usual contrast, at least 0
 };
 
 // What all targets are compared with.
@@ -49,8 +50,10 @@ struct CandidateContext {
 // The offset from the source's centre on the photo that an offset from the target's centre is taken from, unbent.
 Vec2 photo_offset(const SourceCandidate& candidate, const Vec2& canvas_offset);
 
-// Which sample of the source lies on the target's. Mirrored banks run backwards, so that the branch stays on its side.
-std::size_t paired_sample(const Fragment& source, bool mirror, std::size_t sample);
+// Which sample of the source lies on the target's.
+inline std::size_t paired_sample(const Fragment& source, bool backwards, std::size_t sample) {
+  return backwards ? source.shape.size() - 1 - sample : sample;
+}
 
 // The best candidates of a target, best first; empty when the photo has nothing of its kind.
 std::vector<SourceCandidate> rank_candidates(const CandidateContext& context, const Fragment& target, int target_index);
