@@ -17,7 +17,7 @@ struct Scene {
 };
 
 // Grainy ground crossed by one dark branch. slope adds a shade from left to right.
-Scene ground(int width, int height, float slope) {
+Scene ground(int width, int height, float slope, float grain = 0.1f) {
   Scene s;
   Rng rng(1);
   ScalarImage noise(width, height);
@@ -26,7 +26,7 @@ Scene ground(int width, int height, float slope) {
   s.exemplar.photo.color = ColorImage(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const float v = 0.5f + 0.1f * noise(x, y) + slope * (static_cast<float>(x) / width - 0.5f);
+      const float v = 0.5f + grain * noise(x, y) + slope * (static_cast<float>(x) / width - 0.5f);
       s.exemplar.photo.color(x, y) = std::abs(y - height / 2) < 3 ? Rgb{0.1f, 0.1f, 0.1f} : Rgb{v, v, 0.9f * v};
     }
   }
@@ -85,6 +85,11 @@ TEST_CASE("auto makes new ground of texture and varies what has shades or landma
   Scene shade = ground(240, 180, 0.8f);
   finish(shade);
   CHECK(mode(shade) == BackgroundMode::Vary);
+  Scene faint = ground(240, 180, 0.06f, 0.02f);  // a shade of spread 0.06 / sqrt(12), most of what little there is
+  finish(faint);
+  CHECK(measure_slow_tones(faint.plate.color, faint.habitat.outside).share > 0.5);
+  CHECK(measure_slow_tones(faint.plate.color, faint.habitat.outside).spread == Approx(0.017).margin(0.003));
+  CHECK(mode(faint) == BackgroundMode::New);
   Scene landmark = ground(240, 180, 0.0f);
   mark(landmark, RegionRole::Landmark, 20, 20, 90, 80);
   finish(landmark);

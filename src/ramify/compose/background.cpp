@@ -141,6 +141,22 @@ double mirrored_at(double t, int n) {
   return t < n ? t : period - t;
 }
 
+// Logarithm of how busy the ground is around every pixel. Quiet patches fit anything beside them, so that a quilt that
+// is not told how busy to be goes quiet.
+ScalarImage busyness(const ColorImage& color, const Mask& invented, double reach) {
+  constexpr double kFine = 1.0;         // px
+  constexpr float kFloor = 0.5f / 255;  // of rounding
+  const ScalarImage light = luma(color), calm = gaussian_blur(light, kFine);
+  ScalarImage swing(light.size()), weight(light.size());
+  for (std::size_t i = 0; i < swing.pixels().size(); ++i) {
+    swing.pixels()[i] = std::abs(light.pixels()[i] - calm.pixels()[i]);
+    weight.pixels()[i] = invented.pixels()[i] ? 0.0f : 1.0f;
+  }
+  swing = masked_blur(swing, weight, reach);
+  for (float& v : swing.pixels()) v = std::log(v + kFloor);
+  return swing;
+}
+
 Background new_ground(const Exemplar& exemplar, const Habitat& habitat, const Plate& plate, const BackgroundPlan& plan,
                       const VectorImage& map, const Skeleton& target, Rng rng, const Monitor& monitor) {
   constexpr double kBank = 30.0;   // px; ground nearer to a branch than this is bank (PICTURES 12.1-1)
@@ -163,15 +179,21 @@ Background new_ground(const Exemplar& exemplar, const Habitat& habitat, const Pl
     return d;
   };
   if (!target.empty()) job.guides.push_back({bank(exemplar.skeleton, photo), bank(target, plan.canvas), 1.0});
-  const double slow = slow_share(plate.color, habitat.outside);
+  const double slow = measure_slow_tones(plate.color, habitat.outside).share;
   const double reach = slow > 0.05 ? kTone : 4.0 * kTone;
   const ColorImage tone = gaussian_blur(plate.color, reach);
+  const ScalarImage busy = busyness(plate.color, add(job.forbidden, plate.hole), kTone);
   ColorImage wanted(plan.canvas);
+  ScalarImage wanted_busy(plan.canvas);
   for (int y = 0; y < plan.canvas.height; ++y) {
     for (int x = 0; x < plan.canvas.width; ++x) {
-      wanted(x, y) = sample_bilinear(tone, Vec2(mirrored_at(map(x, y).x(), photo.width - 1), mirrored_at(map(x, y).y(), photo.height - 1)));
+      const Vec2 p(mirrored_at(map(x, y).x(), photo.width - 1), mirrored_at(map(x, y).y(), photo.height - 1));
+      wanted(x, y) = sample_bilinear(tone, p);
+      wanted_busy(x, y) = sample_bilinear(busy, p);
     }
   }
+  constexpr double kBusyWeight = 4.0;
+  job.guides.push_back({busy, wanted_busy, kBusyWeight});
   if (slow > 0.05) {
     constexpr double kToneWeight = 20.0;
     for (int c = 0; c < 3; ++c) job.guides.push_back({channel(tone, c), channel(wanted, c), kToneWeight});

@@ -45,10 +45,15 @@ struct BackgroundOptions {
 };
 std::vector<OptionField> describe(BackgroundOptions& options);
 
-// Share of a picture's variance that is slower than a sixteenth of the photo's width (ALGORITHMS 6.1).
-double slow_share(const ColorImage& photo, const Mask& without);
+// Tones of a picture that change more slowly than over a sixteenth of its width (ALGORITHMS 6.1).
+struct SlowTones {
+  double share = 0.0;   // 0..1, of the variance of brightness
+  double spread = 0.0;  // 0..1, standard deviation of brightness
+};
+SlowTones measure_slow_tones(const ColorImage& photo, const Mask& without);
 
-// Auto: New where the plate is all texture (slow share below 0.2) without landmarks or outside shapes, else Vary.
+// Auto: New where the plate is all texture (slow share below 0.2, or slow tones too faint to be missed) without
+// landmarks or outside shapes, else Vary.
 BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat, const Plate& plate, Size canvas,
                                const BackgroundOptions& options, Rng rng);
 
