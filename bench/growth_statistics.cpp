@@ -31,6 +31,17 @@ constexpr double kHeadingCounts = 0.3;  // strength from which an order has a di
 constexpr double kRayleigh = 3.0;       // n R^2 beyond which a direction is no chance, p < 0.05 (Rayleigh's test)
 constexpr int kLongEnough = 30;         // m: exemplars with fewer nodes must repeat themselves
 
+// Branches that leave others per px: two that leave one node are two, as where a leaf's laterals face each other.
+double branching_rate(const Skeleton& skeleton, const SkeletonStatistics& statistics) {
+  std::vector<int> children(static_cast<std::size_t>(skeleton.count()), 0);
+  for (const Node& node : skeleton.nodes()) {
+    if (node.parent != kNone) ++children[static_cast<std::size_t>(node.parent)];
+  }
+  int leaving = 0;
+  for (const int count : children) leaving += std::max(0, count - 1);
+  return leaving / std::max(1.0, statistics.bends.length);
+}
+
 // Distances of one grown skeleton, as ratios to what is allowed.
 struct OneSeed {
   double rate = 0.0;    // furcations per length over the exemplar's
@@ -108,7 +119,7 @@ Row measure(const std::string& name, int seeds, const std::string& folder) {
     save(grown, s + 1);
     const SkeletonStatistics statistics = measure_statistics(grown, step);
     OneSeed& one = row.seeds[static_cast<std::size_t>(s)];
-    one.rate = own.furcations > 0 ? statistics.furcations_per_1000px / own.furcations_per_1000px : 1.0;
+    one.rate = own.furcations > 0 ? branching_rate(grown, statistics) / branching_rate(exemplar, own) : 1.0;
     one.length = statistics.total_length / own.total_length;
     one.angle = spreads(own.bends.angles, statistics.bends.angles, angle_spread);
     one.radius = spreads(own.bends.radii, statistics.bends.radii, radius_spread);

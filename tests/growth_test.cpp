@@ -400,6 +400,24 @@ TEST_CASE("grown radii are spread as the exemplar's and keep their order") {
   CHECK(at_same_share({1, 2}, {10, 20}, 9.0) == Approx(20.0));
 }
 
+TEST_CASE("a thick branch that ends in the open fades to the exemplar's thinnest") {
+  test::WavyTree tree;
+  tree.radius = 12.0;  // the main's own tip is six times as thick as the thinnest twig: a trace cut short
+  const Style style = style_of(tree, 22);
+  int judged = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Skeleton grown = grow_from_style(style, canvas(700, 400), GrowOptions{}, Rng(seed), Monitor{});
+    for (const Branch& branch : branch_tree(grown).branches) {
+      const Node& tip = grown[branch.nodes.back()];
+      const double rim = std::min({tip.position.x(), tip.position.y(), 699 - tip.position.x(), 399 - tip.position.y()});
+      if (branch.order > 0 || rim < 30.0) continue;
+      CHECK(tip.radius <= 3.0 * style.hierarchy.least_radius);
+      ++judged;
+    }
+  }
+  CHECK(judged > 0);
+}
+
 TEST_CASE("grown statistics are the exemplar's") {
   const Style style = style_of({}, 15);
   double forks = 0.0, length = 0.0;

@@ -88,14 +88,19 @@ GrowingBranch plan_branch(const GrowthState& state, const ChildPlan& plan, Rng& 
   return child;
 }
 
-// The template's own turn from its first direction to its chord, signed as the child is.
-double template_turn(const GrowthState& state, const GrowingBranch& child) {
+// Where a child's chord points that turns from its parent's course as its template does; rad. The course is taken over
+// one extension to both sides: what the parent does in a single bend does not turn the whole child.
+double template_chord(const GrowthState& state, const GrowingBranch& child) {
   const BendingModel& bending = state.style.bending;
-  const int first = bending.first[child.source], last = bending.first[child.source + 1] - 1;
-  const Vec2 start = bending.point[std::min(last, first + 3)] - bending.point[first];
-  const Vec2 chord = bending.point[last] - bending.point[first];
-  const double turn = wrap_angle(angle_of(chord) - angle_of(start));
-  return child.mirrored ? -turn : turn;
+  const SourceBranch& source = state.style.hierarchy.branches[child.source];
+  const GrowingBranch& parent = state.branches[child.parent];
+  const auto course = [&](const auto& points, int at, int first, int last) {
+    return angle_of(points[std::min(last, at + bending.extension)] - points[std::max(first, at - bending.extension)]);
+  };
+  const int first = bending.first[source.parent], last = bending.first[source.parent + 1] - 1;
+  const Vec2 chord = bending.point[bending.first[child.source + 1] - 1] - bending.point[bending.first[child.source]];
+  const double turn = wrap_angle(angle_of(chord) - course(bending.point, first + source.parent_vertex, first, last));
+  return course(parent.points, child.parent_node, 0, parent.count() - 1) + (child.mirrored ? -turn : turn);
 }
 
 double length_of_template(const GrowthState& state, int source) {
@@ -173,6 +178,11 @@ std::vector<Place> rank_places(const GrowthState& state, int number, const Wante
   const SourceBranch& child = state.style.hierarchy.branches[source];
   const double reach = std::min(0.6 * length_of_template(state, source), 4.0 * state.spacing + 40.0);
   const int last = branch.count() - 1;
+  const Headings& headings =
+      state.style.hierarchy.headings[static_cast<std::size_t>(std::min(branch.order + 1, kHeadingOrders - 1))];
+  const double directed = state.options.free_direction   ? 0.0
+                          : state.options.tropism >= 0.0 ? state.options.tropism
+                                                         : 1.0;
   std::vector<Place> places;
   for (int node = 2; node < last - 1; ++node) {
     const double off = (node / static_cast<double>(last) - wanted.place) / wanted.spread;
@@ -182,9 +192,12 @@ std::vector<Place> rank_places(const GrowthState& state, int number, const Wante
       const int side = state.side_of(source, mirrored);
       if ((mirrored && !state.style.mirror) || fork_blocked(state, branch, node, side)) continue;
       const double direction = tangent_at(branch, node) + (mirrored ? -0.8 : 0.8) * child.start_angle;
+      const double led =
+          2.0 * headings.strength * headings.strength *
+          std::log(kHeadingBins * headings.share[static_cast<std::size_t>(heading_bin(direction))] + 0.3);
       const double skip = branch.radii[node] + 0.6 * state.spacing;
       const double room = free_way(state, branch.points[node], direction, skip, reach);
-      places.push_back({common + 2.0 * junction_likeness(state, branch, node, source, mirrored) +
+      places.push_back({common + directed * led + 2.0 * junction_likeness(state, branch, node, source, mirrored) +
                             1.5 * std::log(0.08 + room) + 0.4 * rng.normal() - (side == wanted.side ? 0.0 : kOtherSide),
                         node, mirrored});
     }
@@ -255,10 +268,10 @@ int place_child(GrowthState& state, const ChildPlan& plan, Rng& rng) {
   state.commit(number, stretch);
   state.branches[number].followed = plan.followed;
   const double reach = std::min(0.6 * child.length, 4.0 * state.spacing + 40.0);
-  state.branches[number].heading =
-      plan.heading ? *plan.heading
-                   : draw_heading(state, child.points.front(), child.start_direction + template_turn(state, child),
-                                  child.order, reach, tree_root(state, plan.parent), rng);
+  state.branches[number].heading = plan.heading
+                                       ? *plan.heading
+                                       : draw_heading(state, child.points.front(), template_chord(state, child),
+                                                      child.order, reach, tree_root(state, plan.parent), rng);
   if (plan.followed == kNone) aim_at_frame(state, state.branches[number]);
   grow_branch(state, number, rng);
   const GrowingBranch& grown = state.branches[number];

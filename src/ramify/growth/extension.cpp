@@ -199,22 +199,23 @@ bool overfull(const GrowthState& state, const GrowingBranch& branch) {
 
 }  // namespace
 
-// Ends made by growth alone fade as the exemplar's tips do. A wide branch that was stopped short needs more way than
-// they and comes down to the exemplar's thinnest: else rivers end blunt inland.
+// Ends made by growth alone fade as the exemplar's tips do. What was stopped while it was thick needs more way than
+// they and comes down to the exemplar's thinnest: else rivers and vessels end blunt in the open.
 void taper_tip(GrowthState& state, int number) {
-  constexpr double kWay = 8.0;   // radii
-  constexpr double kWide = 8.0;  // times the thinnest
+  constexpr double kWay = 8.0;       // radii
+  constexpr double kThick = 2.0;     // times the thinnest
+  constexpr double kCutShort = 4.0;  // times the thinnest: a template's own tip as wide as that is a trace cut short
   GrowingBranch& branch = state.branches[number];
   if (branch.stop == GrowthStop::Frame || branch.stop == GrowthStop::Join) return;
   const Hierarchy& learnt = state.style.hierarchy;
-  const double radius = branch.radii.back();
-  const bool wide = radius > kWide * learnt.least_radius && !state.options.paper_exact;
-  const bool tip =
+  const double radius = branch.radii.back(), widths = radius / learnt.least_radius;
+  const bool own_tip =
       learnt.branches[branch.source].end == BranchEnd::Tip && branch.arc(state.style.step) > 0.9 * branch.length;
-  if (tip && !wide) return;  // the template's own tip; where that is wide its trace was cut short
+  if (own_tip && (widths <= kCutShort || state.options.paper_exact)) return;
+  const bool thick = widths > kThick && !state.options.paper_exact;
   const int last = static_cast<int>(learnt.tip_profile.size()) - 1, end = branch.count() - 1;
-  const int way = wide ? std::max(last, static_cast<int>(kWay * radius / state.style.step)) : last;
-  const double pointed = wide ? learnt.least_radius / radius : 1.0;
+  const int way = thick ? std::max(last, static_cast<int>(kWay * radius / state.style.step)) : last;
+  const double pointed = thick ? 1.0 / widths : 1.0;
   for (int j = 0; j <= std::min(way, end); ++j) {
     const double share = static_cast<double>(j) / way;
     const double factor = learnt.tip_profile[static_cast<std::size_t>(std::lround(share * last))];

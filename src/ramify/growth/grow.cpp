@@ -29,6 +29,18 @@ struct Job {
   }
 };
 
+// The exemplar's children from the shortest, the shorter half.
+std::vector<int> twigs_of(const Style& style) {
+  std::vector<int> twigs;
+  for (int b = 0; b < style.bending.branch_count(); ++b) {
+    if (style.hierarchy.branches[b].parent != kNone) twigs.push_back(b);
+  }
+  std::stable_sort(twigs.begin(), twigs.end(),
+                   [&](int a, int b) { return style.bending.length_of(a) < style.bending.length_of(b); });
+  twigs.resize((twigs.size() + 1) / 2);
+  return twigs;
+}
+
 void grow_children(GrowthState& state, const std::vector<int>& roots, int most_order) {
   std::priority_queue<Job> open;
   int age = 0;
@@ -40,9 +52,17 @@ void grow_children(GrowthState& state, const std::vector<int>& roots, int most_o
     }
   };
   for (const int root : roots) plan_children(root);
+  const std::vector<int> twigs = twigs_of(state.style);
+  const double twig =
+      twigs.empty() ? 0.0 : (state.style.bending.length_of(twigs[twigs.size() / 2]) - 1) * state.style.step;
+  const double rate = state.wanted_forks() / std::max(1.0, state.grown_length);
   while (!open.empty() && state.grown_length < 1.02 * state.wanted_length) {
     const Job job = open.top();
     open.pop();
+    // The last long ones must leave length for the short ones that are still missing.
+    const double missing = rate * state.wanted_length - state.forks() - 1;
+    const double length = (job.vertices - 1) * state.style.step;
+    if (state.grown_length + length > 1.05 * state.wanted_length - twig * std::max(0.0, missing)) continue;
     Rng rng = state.rng.child("grow.child", static_cast<std::uint64_t>(job.age));
     const int child = settle_child(state, job.parent, job.child, rng);
     if (child != kNone) plan_children(child);
@@ -52,16 +72,8 @@ void grow_children(GrowthState& state, const std::vector<int>& roots, int most_o
 
 // What was stunted or found no place leaves forks missing. The exemplar's shortest children find room for themselves.
 void add_twigs(GrowthState& state, int most_order) {
-  constexpr double kShort = 0.5;        // of the children, by length
-  constexpr double kMostLength = 1.05;  // of the wanted
-  const Style& style = state.style;
-  std::vector<int> twigs;
-  for (int b = 0; b < style.bending.branch_count(); ++b) {
-    if (style.hierarchy.branches[b].parent != kNone) twigs.push_back(b);
-  }
-  std::stable_sort(twigs.begin(), twigs.end(),
-                   [&](int a, int b) { return style.bending.length_of(a) < style.bending.length_of(b); });
-  twigs.resize(static_cast<std::size_t>(std::ceil(kShort * static_cast<double>(twigs.size()))));
+  constexpr double kMostLength = 1.1;  // of the wanted
+  const std::vector<int> twigs = twigs_of(state.style);
   if (twigs.empty()) return;
   const int missing = static_cast<int>(state.wanted_forks()) - state.forks();
   Rng rng = state.rng.child("grow.twigs");

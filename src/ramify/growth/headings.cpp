@@ -28,7 +28,8 @@ double draw_heading(const GrowthState& state, const Vec2& from, double start, in
   const int o = std::min(order, kHeadingOrders - 1);
   const Headings& absolute = state.style.hierarchy.headings[o];
   const Headings& ray = state.style.hierarchy.ray_headings[o];
-  double absolute_power = absolute.strength < kLeastStrength ? 0.5 : 1.0;
+  // The more the exemplar's branches agree, the more counts where they go (PICTURES 1).
+  double absolute_power = absolute.strength < kLeastStrength ? 0.5 : std::max(1.0, 2.0 * absolute.strength);
   if (state.options.tropism >= 0.0) absolute_power = state.options.tropism;
   const Vec2 outward = from - root;
   const double ray_power = ray.strength < kLeastStrength || outward.norm() < 4.0 * state.style.step ? 0.0 : ray.strength;

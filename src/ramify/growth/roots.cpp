@@ -44,6 +44,12 @@ Vec2 slide_along_frame(const Vec2& point, Vec2 jitter, Size size) {
   return jitter;
 }
 
+// From a landmark to a tip, as a midrib: a new one must fit the old leaf.
+bool fits_old_ground(const GrowthState& state, int source) {
+  const SourceBranch& branch = state.style.hierarchy.branches[source];
+  return branch.starts_on_landmark && state.target.kept && branch.end == BranchEnd::Tip;
+}
+
 RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tree_jitter, double freedom, Rng& rng) {
   const SourceBranch& branch = state.style.hierarchy.branches[source];
   const Size size = state.target.size;
@@ -57,9 +63,8 @@ RootPlan plan_from_template(const GrowthState& state, int source, const Vec2& tr
     const Vec2 place = on_this_canvas(state, own);
     plan.position = (place + (branch.starts_on_frame ? slide_along_frame(place, tree_jitter, size) : tree_jitter)).cwiseMax(low).cwiseMin(high);
   }
-  // The surer the exemplar's main direction, the less it is disturbed. From a landmark to a tip a branch keeps its course:
-  // a new midrib must fit the old leaf.
-  const bool fits = branch.starts_on_landmark && state.target.kept && branch.end == BranchEnd::Tip;
+  // The surer the main direction, the less it is disturbed.
+  const bool fits = fits_old_ground(state, source);
   const double jitter_scale = (fits ? 0.3 : 1.0) * freedom * kTurnJitter * std::clamp(2.0 * (1.0 - state.style.hierarchy.headings[0].strength), 0.25, 1.0);
   const double turn = jitter_scale * rng.normal();
   plan.direction = template_direction(state.style, source) + turn;
@@ -117,8 +122,9 @@ std::vector<int> grow_own_roots(GrowthState& state) {
       const int number = place_root(state, plan, rng);
       if (number == kNone) continue;
       const GrowingBranch& branch = state.branches[number];
-      // Stuck early, or out of the habitat or frame all but at once: another start may do better.
-      const double least = branch.stop == GrowthStop::Stuck ? 0.3 : 0.1;
+      // Stuck early, or out of the habitat or frame all but at once: another start may do better. So for a midrib that
+      // leaves its leaf at the side.
+      const double least = fits_old_ground(state, source) ? 0.9 : branch.stop == GrowthStop::Stuck ? 0.3 : 0.1;
       const bool good = branch.arc(state.style.step) > least * branch.length;
       if (good || attempt + 1 == kTries) {
         grown.push_back(number);
