@@ -38,7 +38,7 @@ const std::vector<Preset>& stylize_presets() {
       {"lightning", "lines that run down along edges", {{"edges", "20"}, {"least-importance", "0.2"}, {"count-endpoints", "1500"}, {"noise", "0.5"}, {"upward", "2"}, {"sideways", "1.3"}, {"thin", "0.2"}, {"thick", "1.2"}}},
       {"sum", "the paper's other metric, for comparison", {{"metric", "sum"}}},
       {"tree", "a painted tree", {{"tree", "true"}, {"thickness", "endpoints"}, {"thin", "0.6"}, {"thick", "14"}}},
-      {"hidden", "a tree with the picture in its right half", {{"tree", "true"}, {"limbs", "9"}, {"twigs", "2500"}, {"branching", "1.6"}, {"hops", "220"}, {"thickness", "endpoints"}, {"thin", "0.7"}, {"thick", "12"}}},
+      {"hidden", "a tree with the picture in its right half", {{"tree", "true"}, {"edges", "6"}, {"limbs", "7"}, {"twigs", "4500"}, {"branching", "1.6"}, {"hops", "400"}, {"thickness", "endpoints"}, {"thin", "0.9"}, {"thick", "9"}}},
       {"face", "a tree whose every twig follows the picture", {{"tree", "true"}, {"hidden", "1"}, {"limbs", "9"}, {"twigs", "3500"}, {"branching", "1.6"}, {"hops", "260"}, {"thickness", "importance"}, {"thin", "0.3"}, {"thick", "3"}}}};
   return presets;
 }

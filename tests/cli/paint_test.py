@@ -48,7 +48,8 @@ class Paint(CliTest):
         self.tree = self.path("tree.swc", tree_swc())
 
     def test_librsvg_sees_what_we_paint(self):
-        for style, extra in (("ink", ["--palette", "coral"]), ("vine", ["--flowers", "0.4"]), ("vine", ["--leaf", "ivy", "--phyllotaxis", "spiral"])):
+        for style, extra in (("ink", ["--palette", "coral"]), ("vine", ["--flowers", "0.4"]), ("vine", ["--leaf", "ivy", "--phyllotaxis", "spiral"]),
+                             ("watercolor", []), ("woodcut", ["--background", "#f4ecd8", "--hatching", "0"])):
             for scale in (1, 3):
                 svg, png = self.path("a.svg"), self.path("a.png")
                 common = ["--style", style, "--scale", scale, *extra]
