@@ -139,7 +139,8 @@ TEST_CASE("bars from 1.5 to 40 px are measured to a quarter pixel and three perc
         errors.push_back(std::abs(probed.radii[i] - r));
         offsets.push_back(distance_to_segment(probed.points[i], a, b));
       }
-      INFO("r " << r << " blur " << blur << " measured " << median(probed.radii) << " error " << median(errors) << " offset " << median(offsets));
+      INFO("r " << r << " blur " << blur << " measured " << median(probed.radii) << " error " << median(errors)
+                << " offset " << median(offsets));
       // A bar thinner than its blur shows its width only in the last percent of its profile.
       CHECK(median(errors) <= (blur > 1.3 * r ? 0.45 : 0.25 + 0.03 * r));
       CHECK(median(offsets) <= 0.5 + 0.02 * r);
@@ -149,7 +150,8 @@ TEST_CASE("bars from 1.5 to 40 px are measured to a quarter pixel and three perc
 
 TEST_CASE("the live wire follows a noisy branch within 0.6 px") {
   std::vector<Stroke> truth{{{}, 2.5}};
-  for (double x = -10; x <= 260; x += 4) truth[0].points.emplace_back(x, 80 + 22 * std::sin(0.045 * x) + 6 * std::sin(0.13 * x));
+  for (double x = -10; x <= 260; x += 4)
+    truth[0].points.emplace_back(x, 80 + 22 * std::sin(0.045 * x) + 6 * std::sin(0.13 * x));
   const Photo photo = grey_photo(drawn(truth, {250, 160}, 0.8, 8.0 / 255.0, 3));
   TraceOptions options;
   options.polarity = TracePolarity::Dark;
@@ -186,7 +188,8 @@ TEST_CASE("a synthetic tree is traced with its radii") {
         const Vec2 q = s.points[i - 1] + t * (s.points[i] - s.points[i - 1]);
         if (q.x() < 0) continue;
         ++wanted;
-        found += std::any_of(points.begin(), points.end(), [&](const Vec2& p) { return (p - q).norm() <= std::max(2.0, 0.5 * s.radius); });
+        found += std::any_of(points.begin(), points.end(),
+                             [&](const Vec2& p) { return (p - q).norm() <= std::max(2.0, 0.5 * s.radius); });
       }
     }
   }
@@ -227,6 +230,113 @@ TEST_CASE("wrong radii are measured again") {
   }
   CHECK(median(errors) <= 0.25 + 0.15);
   CHECK(median(offsets) <= 0.4);
+}
+
+namespace {
+
+// A wide river of bright water: its middle and half width are known functions of x, its banks rough on both sides
+// alike.
+struct WideRiver {
+  double middle(double x) const { return 150.0 + 35.0 * std::sin(0.011 * x); }
+  double half(double x) const { return 38.0 + 10.0 * std::sin(0.017 * x + 1.0); }
+  // The same seen square to the river: a vertical cut is longer by the river's slope.
+  double radius(double x) const { return half(x) / std::hypot(1.0, 35.0 * 0.011 * std::cos(0.011 * x)); }
+
+  Photo photo(std::uint64_t seed, bool bright) const {
+    ScalarImage image(560, 300), land(560, 300);
+    Rng rng = Rng(seed).child("land");
+    for (float& v : land.pixels()) v = static_cast<float>(rng.normal());
+    land = gaussian_blur(land, 2.0);
+    for (int y = 0; y < 300; ++y) {
+      for (int x = 0; x < 560; ++x) {
+        double inside = 0.0;
+        for (int k = 0; k < 16; ++k) {
+          const double u = x + (k % 4 - 1.5) / 4.0, v = y + (k / 4 - 1.5) / 4.0;
+          inside += (std::abs(v - middle(u)) < half(u)) / 16.0;
+        }
+        const double ground = 0.35 + 0.25 * land(x, y), water = 0.65;
+        image(x, y) = static_cast<float>(ground + inside * (water - ground));
+      }
+    }
+    image = gaussian_blur(image, 0.8);
+    for (float& v : image.pixels()) v = static_cast<float>((bright ? v : 1.0f - v) + 6.0 / 255.0 * rng.normal());
+    return grey_photo(image);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a river wider than 40 px is traced by its banks") {
+  const WideRiver river;
+  for (const bool bright : {true, false}) {
+    TraceOptions options;
+    options.polarity = bright ? TracePolarity::Bright : TracePolarity::Dark;
+    options.mode = TraceMode::Ridge;
+    // Points up to 15 px off the middle, as a person gives them.
+    options.through = "6,140 120,190 250,155 400,110 552,132";
+    const Annotation a = trace_photo(river.photo(4, bright), options);
+    std::vector<double> away, errors;
+    double reach = 0.0;
+    for (const AnnotatedBranch& b : a.branches) {
+      for (std::size_t i = 0; i < b.points.size(); ++i) {
+        const double x = b.points[i].x();
+        reach = std::max(reach, x);
+        double nearest = 1e9, radius = 0.0;
+        for (double u = x - 30.0; u < x + 30.0; u += 0.5) {
+          const double d = (b.points[i] - Vec2(u, river.middle(u))).norm();
+          if (d < nearest) nearest = d, radius = river.radius(u);
+        }
+        away.push_back(nearest);
+        errors.push_back(std::abs(b.radii[i] - radius) - 0.03 * radius);
+      }
+    }
+    CAPTURE(bright, median(away), median(errors));
+    CHECK(a.branches.size() == 1);
+    CHECK(reach > 530.0);
+    CHECK(median(away) <= 1.5);
+    CHECK(median(errors) <= 0.25);
+    std::sort(away.begin(), away.end());
+    CHECK(away[away.size() * 9 / 10] <= 4.0);
+    options.banks = 0.0;  // without them the wire has no ridge to follow in wide water
+    std::vector<double> without;
+    for (const AnnotatedBranch& b : trace_photo(river.photo(4, bright), options).branches)
+      for (const double r : b.radii) without.push_back(r);
+    CHECK(median(without) < 30.0);
+  }
+}
+
+TEST_CASE("a creek joins a wide river in its middle") {
+  const std::vector<Stroke> truth{{{Vec2(-60, 160), Vec2(460, 160)}, 45.0}, {{Vec2(200, 160), Vec2(250, 20)}, 3.0}};
+  const Photo photo = grey_photo(drawn(truth, {400, 300}, 0.8, 6.0 / 255.0, 5));
+  TraceOptions options;
+  options.polarity = TracePolarity::Dark;
+  options.mode = TraceMode::Ridge;
+  options.through = "8,168 200,150 392,160";
+  for (const bool automatic : {false, true}) {
+    TraceOptions o = options;
+    o.automatic = automatic;
+    if (!automatic) o.through += "; 216,115 250,22";
+    const Annotation a = trace_photo(photo, o);
+    CAPTURE(automatic);
+    REQUIRE(a.branches.size() == 2);
+    CHECK(median(a.branches[0].radii) == Approx(45.0).margin(0.25 + 0.03 * 45.0));
+    REQUIRE(a.branches[1].parent);
+    const Vec2 joint = a.branches[0].points[a.branches[1].parent->point];
+    CHECK((joint - Vec2(200, 160)).norm() < 25.0);  // the creek's last way to the middle is hidden in the river
+    CHECK(std::abs(joint.y() - 160.0) < 3.0);
+    CHECK(median(a.branches[1].radii) == Approx(3.0).margin(0.35));
+  }
+}
+
+TEST_CASE("a thin line is not taken for one between two banks") {
+  const std::vector<Stroke> truth{{{Vec2(-10, 60), Vec2(260, 70)}, 3.0}};
+  const Photo photo = grey_photo(drawn(truth, {240, 200}, 0.8, 6.0 / 255.0, 9));
+  TraceOptions options;
+  options.polarity = TracePolarity::Dark;
+  options.through = "8,61 120,66 230,68";
+  const Annotation with = trace_photo(photo, options);
+  options.banks = 0.0;
+  CHECK(annotation_text(with) == annotation_text(trace_photo(photo, options)));
 }
 
 TEST_CASE("tracing gives the same bytes for any number of threads") {
@@ -289,11 +399,13 @@ TEST_CASE("committed strokes and automatic traces agree with the masks people dr
     std::string name, suffix;
     double committed, automatic;  // least F1
   };
-  for (const Case& c : {Case{"crack_uav75_DSC00674h", ".jpg", 0.95, 0.85}, Case{"roots_alfalfa_b", ".png", 0.75, 0.9}}) {
+  for (const Case& c :
+       {Case{"crack_uav75_DSC00674h", ".jpg", 0.95, 0.85}, Case{"roots_alfalfa_b", ".png", 0.75, 0.9}}) {
     const std::string path = std::string(folder) + "/" + c.name;
     const Mask truth = load_mask(path + "_mask.png");
     INFO(c.name);
-    CHECK(score_against(truth, load_annotation(std::string(RAMIFY_EXEMPLARS) + "/" + c.name + ".ramify.json")) >= c.committed);
+    CHECK(score_against(truth, load_annotation(std::string(RAMIFY_EXEMPLARS) + "/" + c.name + ".ramify.json")) >=
+          c.committed);
     Photo photo;
     photo.name = c.name;
     photo.color = load_image(path + c.suffix).color;

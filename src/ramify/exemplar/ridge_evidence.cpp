@@ -10,14 +10,16 @@
 namespace ramify {
 namespace {
 
-constexpr double kNoiseFactor = 8.0;  // a line starts at this many times the median response
-constexpr double kGlowFactor = 20.0;  // where branches glow: most of the sky is black and its median response tiny
+constexpr double kNoiseFactor = 8.0;   // a line starts at this many times the median response
+constexpr double kGlowFactor = 20.0;   // where branches glow: most of the sky is black and its median response tiny
 constexpr double kLargestShare = 0.4;  // of the picture: thicker classes are background
-constexpr double kLongest = 10.0;      // smallest area of a thick branch over its largest radius squared (a disc has 3.1)
-constexpr double kBankReach = 3.0;    // px to both sides of a rim
-constexpr double kBankShare = 0.45;   // of the contrast lies within these
-constexpr double kApart = 2.65;       // contrast over the spread of the rest: that of the halves of a normal distribution
-constexpr double kLowShare = 0.35;    // and goes on at this share of it (ALGORITHMS 3.3-3)
+constexpr double kLongest = 10.0;    // smallest area of a thick branch over its largest radius squared (a disc has 3.1)
+constexpr double kBankReach = 3.0;   // px to both sides of a rim
+constexpr double kBankShare = 0.45;  // of the contrast lies within these
+constexpr double kApart = 2.65;     // contrast over the spread of the rest: that of the halves of a normal distribution
+constexpr double kLowShare = 0.35;  // and goes on at this share of it (ALGORITHMS 3.3-3)
+constexpr double kCloudSigma = 1.2;     // px: wider ridges count less where branches glow
+constexpr double kGlowLowShare = 0.22;  // a stroke of lightning dies away at its tip
 
 double median_positive(const ScalarImage& image, const Mask& excluded) {
   std::vector<float> values;
@@ -112,10 +114,10 @@ struct ToneSum {
   double variance() const { return std::max(0.0, square / std::max(n, 1.0) - mean() * mean()); }
 };
 
-// Components with a tone of their own and with banks. Otsu cuts any picture in two: the stains of a wall are the darker half
-// of its texture, and no further from the rest than one half of a normal distribution is from the other. The rim of a bright
-// cloud is only where a slow change passes the threshold: across real banks the picture changes by a good part of what tells
-// the component from the rest.
+// Components with a tone of their own and with banks. Otsu cuts any picture in two: the stains of a wall are the darker
+// half of its texture, and no further from the rest than one half of a normal distribution is from the other. The rim
+// of a bright cloud is only where a slow change passes the threshold: across real banks the picture changes by a good
+// part of what tells the component from the rest.
 Mask standing_out(const Mask& mask, const ScalarImage& picture, const Mask& excluded, double apart) {
   int count = 0;
   const LabelImage label = label_components(mask, true, count);
@@ -132,7 +134,8 @@ Mask standing_out(const Mask& mask, const ScalarImage& picture, const Mask& excl
       }
       inside[k].add(picture(x, y));
       const Vec2 way(inward.dx(x, y), inward.dy(x, y));
-      const bool on_rim = !mask.clamped(x - 1, y) || !mask.clamped(x + 1, y) || !mask.clamped(x, y - 1) || !mask.clamped(x, y + 1);
+      const bool on_rim =
+          !mask.clamped(x - 1, y) || !mask.clamped(x + 1, y) || !mask.clamped(x, y - 1) || !mask.clamped(x, y + 1);
       if (!on_rim || way.norm() < 1e-3) continue;
       const Vec2 reach = kBankReach * way.normalized();
       const int u = static_cast<int>(std::lround(reach.x())), v = static_cast<int>(std::lround(reach.y()));
@@ -161,8 +164,8 @@ Mask thick_branches(const ScalarImage& picture, bool bright, double core, const 
     mask.pixels()[i] = inside ? 255 : 0;
   }
   mask = fill_small_holes(mask, static_cast<int>(4.0 * core * core));
-  const Mask kernel = drop_small_components(threshold(distance_inside(mask), static_cast<float>(core)),
-                                            static_cast<int>(4.0 * core));
+  const Mask kernel =
+      drop_small_components(threshold(distance_inside(mask), static_cast<float>(core)), static_cast<int>(4.0 * core));
   Mask opened = dilate(kernel, core + 1.0);
   for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
     opened.pixels()[i] = opened.pixels()[i] && mask.pixels()[i] ? 255 : 0;
@@ -170,14 +173,20 @@ Mask thick_branches(const ScalarImage& picture, bool bright, double core, const 
   return standing_out(without_blobs(opened), picture, excluded, apart);
 }
 
+// Strokes of lightning get fainter as they get thinner; what is faint and wide is a fold of a cloud.
+void calm_clouds(RidgeField& field, double sigma) {
+  for (std::size_t i = 0; i < field.strength.pixels().size(); ++i) {
+    field.strength.pixels()[i] /= static_cast<float>(std::max(1.0, field.sigma.pixels()[i] / sigma));
+  }
+}
+
 }  // namespace
 
 RidgeEvidence gather_evidence(const ColorImage& photo, const Mask& excluded, const TraceOptions& options,
                               const Monitor& monitor) {
   const Polarity wanted = static_cast<Polarity>(std::max(0, static_cast<int>(options.polarity) - 1));
-  const ChannelChoice choice =
-      choose_channel(photo, excluded, options.max_radius, options.channel,
-                     options.polarity == TracePolarity::Auto ? nullptr : &wanted, monitor);
+  const ChannelChoice choice = choose_channel(photo, excluded, options.max_radius, options.channel,
+                                              options.polarity == TracePolarity::Auto ? nullptr : &wanted, monitor);
   RidgeEvidence e;
   e.picture = filled_from_rim(channel_picture(photo, choice.channel), excluded);
   e.bright = choice.polarity != Polarity::Dark;
@@ -185,8 +194,10 @@ RidgeEvidence gather_evidence(const ColorImage& photo, const Mask& excluded, con
   RidgeOptions ridge{e.bright, std::max(0.7, 0.8 * options.min_radius), std::max(1.0, options.max_radius)};
   const bool flatten = options.flatten && !e.glow;
   e.field = ridge_field(flatten ? flattened(e.picture, 4.0 * options.max_radius) : e.picture, ridge, monitor);
-  e.high = std::max((e.glow ? kGlowFactor : kNoiseFactor) * median_positive(e.field.strength, excluded), 1e-3) / options.sensitivity;
-  e.low = kLowShare * e.high;
+  e.high = std::max((e.glow ? kGlowFactor : kNoiseFactor) * median_positive(e.field.strength, excluded), 1e-3) /
+           options.sensitivity;
+  e.low = (e.glow ? kGlowLowShare : kLowShare) * e.high;
+  if (e.glow) calm_clouds(e.field, kCloudSigma * std::max(1.0, options.min_radius));
   const bool areas_wanted = options.mode == TraceMode::Area;  // two classes, says the user
   e.thick = options.mode == TraceMode::Ridge
                 ? Mask(photo.size())

@@ -6,10 +6,12 @@
 
 #include "ramify/core/error.h"
 #include "ramify/core/parallel.h"
+#include "ramify/exemplar/drawn_strokes.h"
 #include "ramify/exemplar/line_finder.h"
 #include "ramify/exemplar/photo_surround.h"
 #include "ramify/exemplar/region_map.h"
 #include "ramify/exemplar/stroke_text.h"
+#include "ramify/exemplar/trace_cleaning.h"
 #include "ramify/exemplar/trace_graph.h"
 #include "ramify/exemplar/trace_landmark.h"
 #include "ramify/exemplar/trace_net.h"
@@ -22,11 +24,9 @@
 namespace ramify {
 namespace {
 
-constexpr double kSnap = 8.0;       // px, how far a given point may be moved to the ridge (ALGORITHMS 3.1-4)
-constexpr double kAttach = 16.0;    // px, strokes starting or ending this near to another one join it
-constexpr double kLandmarkCut = 0.35; // of a found landmark's radius: there branches start
-constexpr double kRimFade = 5.0;      // px: along a field's rim the light fades, which is no line
-constexpr double kStaircase = 2.0;  // px, smoothing that removes the pixel staircase (PICTURES 10)
+constexpr double kLandmarkCut = 0.35;  // of a found landmark's radius: there branches start
+constexpr double kRimFade = 5.0;       // px: along a field's rim the light fades, which is no line
+constexpr double kStaircase = 2.0;     // px, smoothing that removes the pixel staircase (PICTURES 10)
 
 Mask excluded_pixels(const Photo& photo, const std::vector<Region>& regions) {
   const Image<std::uint8_t> map = region_map(regions, photo.color.size(), photo.alpha);
@@ -38,54 +38,14 @@ Mask excluded_pixels(const Photo& photo, const std::vector<Region>& regions) {
   return excluded;
 }
 
-void draw_path(Mask& lines, const std::vector<Pixel>& path) {
-  for (const Pixel& p : path) lines(p.x, p.y) = 255;
-}
-
-// The polygon through the points, pixel by pixel.
-std::vector<Pixel> straight_path(const std::vector<Vec2>& points, Size size) {
-  std::vector<Pixel> path;
-  for (const Vec2& p : evenly_spaced(points, 0.5)) {
-    const Pixel q{std::clamp(static_cast<int>(std::lround(p.x())), 0, size.width - 1),
-                  std::clamp(static_cast<int>(std::lround(p.y())), 0, size.height - 1)};
-    if (path.empty() || !(path.back() == q)) path.push_back(q);
-  }
-  return path;
-}
-
-// The drawn pixel nearest to p within kAttach px, or p: strokes that start or end at another stroke join it.
-Vec2 attached(const Mask& drawn, const Vec2& p) {
-  Vec2 best = p;
-  double nearest = kAttach;
-  const int cx = static_cast<int>(std::lround(p.x())), cy = static_cast<int>(std::lround(p.y()));
-  for (int y = cy - static_cast<int>(kAttach); y <= cy + static_cast<int>(kAttach); ++y) {
-    for (int x = cx - static_cast<int>(kAttach); x <= cx + static_cast<int>(kAttach); ++x) {
-      const double away = std::hypot(x - p.x(), y - p.y());
-      if (!drawn.contains(x, y) || !drawn(x, y) || away >= nearest) continue;
-      nearest = away;
-      best = Vec2(x, y);
-    }
-  }
-  return best;
-}
-
-Mask strokes_as_lines(const RidgeEvidence& evidence, const LatticeCosts& costs, const TraceOptions& options,
-                      const Monitor& monitor) {
-  Mask drawn(evidence.picture.size());
-  for (std::vector<Vec2> stroke : parse_strokes("through", options.through)) {
-    const Vec2 first = attached(drawn, stroke.front()), last = attached(drawn, stroke.back());
-    if (first != stroke.front()) stroke.insert(stroke.begin(), first);
-    if (last != stroke.back()) stroke.push_back(last);
-    draw_path(drawn, options.straight ? straight_path(stroke, drawn.size())
-                                      : live_wire(evidence, costs, stroke, kSnap, drawn, monitor));
-  }
-  return drawn;
+Mask joined(Mask a, const Mask& b) {
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) a.pixels()[i] = a.pixels()[i] || b.pixels()[i] ? 255 : 0;
+  return a;
 }
 
 // Lines drawn over each other, one pixel wide again.
 Mask united(const Mask& a, const Mask& b, const RidgeEvidence& evidence) {
-  Mask both(a.size());
-  for (std::size_t i = 0; i < both.pixels().size(); ++i) both.pixels()[i] = a.pixels()[i] || b.pixels()[i] ? 255 : 0;
+  const Mask both = joined(a, b);
   return thin_along_crests(both, evidence.field.sato, both);
 }
 
@@ -125,7 +85,8 @@ void clear_junction_ends(TraceEdge& edge, bool from_junction, bool to_junction) 
     if (!(at_from ? from_junction : to_junction)) continue;
     const auto at = [&](int i) { return at_from ? i : n - 1 - i; };
     int clear = 0;
-    while (clear < n / 3 && (edge.line[at(clear)] - edge.line[at(0)]).norm() < 1.5 * edge.radii[at(clear)] + 2.0) ++clear;
+    while (clear < n / 3 && (edge.line[at(clear)] - edge.line[at(0)]).norm() < 1.5 * edge.radii[at(clear)] + 2.0)
+      ++clear;
     for (int i = 0; i < clear; ++i) edge.radii[at(i)] = edge.radii[at(clear)];
   }
 }
@@ -167,18 +128,23 @@ void measure_graph(TraceGraph& graph, const RidgeEvidence& evidence, const Trace
   });
 }
 
-// Measured lines of the photo.
-TraceGraph traced_graph(const Photo& photo, const RidgeEvidence& evidence, const Mask& excluded,
-                        const TraceOptions& options, const Monitor& monitor) {
+// Measured lines of the photo. What wide strokes tell of thickness is added to the evidence.
+TraceGraph traced_graph(const Photo& photo, RidgeEvidence& evidence, const Mask& excluded, const TraceOptions& options,
+                        const Monitor& monitor) {
   const LatticeCosts costs = live_wire_costs(evidence);
   const Monitor lines_monitor = monitor.stage("lines", 0.5, 0.8);
   const bool strokes = !options.through.empty(), by_itself = !strokes || options.automatic;
-  Mask drawn(photo.color.size()), lines(photo.color.size());
-  if (strokes) drawn = strokes_as_lines(evidence, costs, options, lines_monitor);
+  const DrawnStrokes along =
+      strokes ? draw_strokes(evidence, costs, options, lines_monitor) : no_strokes(photo.color.size());
+  const Mask& drawn = along.lines;
+  Mask lines(photo.color.size());
   if (by_itself) {
-    lines = find_lines(evidence, excluded, options, lines_monitor);
+    leave_out(evidence, along);
+    lines = find_lines(evidence, joined(excluded, along.wide), options, lines_monitor);
     if (options.gap > 0.0) lines = bridge_gaps(evidence, costs, lines, options.gap, lines_monitor);
+    join_at_banks(lines, along);
   }
+  take_in(evidence, along);
   lines = united(lines, drawn, evidence);
   const Monitor graph_monitor = monitor.stage("widths", 0.8, 0.95);
   PruneOptions prune;
@@ -190,8 +156,9 @@ TraceGraph traced_graph(const Photo& photo, const RidgeEvidence& evidence, const
     graph = pruned(without_net(graph), evidence.radius, prune);
   }
   if (graph.edges.empty()) {
-    throw InputError(photo.name, "no branches found; try --polarity, --sensitivity, --max-radius, or give points with "
-                                 "--through");
+    throw InputError(photo.name,
+                     "no branches found; try --polarity, --sensitivity, --max-radius, or give points with "
+                     "--through");
   }
   for (TraceEdge& e : graph.edges) e.confidence = confidence_of(e, evidence, drawn);
   measure_graph(graph, evidence, options);
@@ -207,61 +174,6 @@ Annotation rooted_on(const Landmark& landmark, const TraceGraph& graph, Size siz
   for (const int end : ends) tree.roots.push_back(cut.nodes[end]);
   regions.push_back({RegionRole::Landmark, outline_of(landmark)});
   return annotation_from_graph(cut, size, tree);
-}
-
-// Points about half a radius apart; junctions, links and ends stay.
-Annotation thinned_out(const Annotation& full) {
-  Annotation out = full;
-  std::vector<std::vector<bool>> needed;
-  for (const auto& b : full.branches) needed.emplace_back(b.points.size(), false);
-  for (std::size_t b = 0; b < full.branches.size(); ++b) {
-    needed[b].front() = needed[b].back() = true;
-    if (const auto& p = full.branches[b].parent) needed[p->branch][p->point] = true;
-  }
-  for (const auto& [a, c] : full.links) needed[a.branch][a.point] = needed[c.branch][c.point] = true;
-  std::vector<std::vector<int>> fresh(full.branches.size());
-  for (std::size_t b = 0; b < full.branches.size(); ++b) {
-    const AnnotatedBranch& from = full.branches[b];
-    AnnotatedBranch& to = out.branches[b];
-    to.points.clear();
-    to.radii.clear();
-    double since = 0.0;
-    for (std::size_t i = 0; i < from.points.size(); ++i) {
-      if (i > 0) since += (from.points[i] - from.points[i - 1]).norm();
-      if (needed[b][i] || since >= std::clamp(0.5 * from.radii[i], 2.0, 6.0)) {
-        to.points.push_back(from.points[i]);
-        to.radii.push_back(from.radii[i]);
-        since = 0.0;
-      }
-      fresh[b].push_back(static_cast<int>(to.points.size()) - 1);
-    }
-  }
-  const auto moved = [&](BranchPoint& p) { p.point = fresh[p.branch][p.point]; };
-  for (auto& b : out.branches) {
-    if (b.parent) moved(*b.parent);
-  }
-  for (auto& [a, c] : out.links) {
-    moved(a);
-    moved(c);
-  }
-  return out;
-}
-
-// Single wide readings beside junctions and knots are not the branch's width: radii may leave the median of their
-// neighbourhood by a third only.
-void calm_radii(Annotation& annotation) {
-  for (AnnotatedBranch& b : annotation.branches) {
-    const std::vector<double> measured = b.radii;
-    const int n = static_cast<int>(measured.size());
-    for (int i = 0; i < n; ++i) {
-      const int half = 8 + static_cast<int>(2.0 * std::min(measured[i], 30.0));
-      std::vector<double> near(measured.begin() + std::max(0, i - half), measured.begin() + std::min(n, i + half + 1));
-      const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-      std::nth_element(near.begin(), middle, near.end());
-      b.radii[i] = std::clamp(measured[i], 0.67 * *middle, 1.33 * *middle);
-    }
-    b.radii = smoothed(b.radii, 2.0);
-  }
 }
 
 void sign_annotation(Annotation& annotation, const Photo& photo, const RidgeEvidence& evidence) {
@@ -289,9 +201,12 @@ std::vector<OptionField> describe(TraceOptions& o) {
       text("through", o.through, "Strokes to follow by live wire: \"x,y x,y; x,y x,y\" in px."),
       flag("automatic", o.automatic, "With --through: find the other branches as well."),
       flag("straight", o.straight, "With --through: follow the points alone, not the picture."),
+      number("banks", o.banks, 0.0, 10000.0, "px",
+             "With --through: strokes along branches wider than this are traced by their two banks; 0: never."),
       text("root", o.root, "Where the structure starts: \"x,y\" in px, or several points."),
       flag("find-regions", o.find_regions,
-           "Without --regions: take a black surround for outside, and within it a spot where thick branches meet for a landmark."),
+           "Without --regions: take a black surround for outside, and within it a spot where thick branches meet for a "
+           "landmark."),
       text("regions", o.regions, "Polygons \"outside: x,y x,y x,y; keep: …; ignore: …; landmark: …\" in px."),
   };
 }
@@ -308,8 +223,7 @@ Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Mo
   }
   Mask excluded = excluded_pixels(photo, regions);
   if (find_regions && !regions.empty()) excluded = dilate(excluded, kRimFade);
-  const RidgeEvidence evidence =
-      gather_evidence(photo.color, excluded, options, monitor.stage("ridges", 0.0, 0.5));
+  RidgeEvidence evidence = gather_evidence(photo.color, excluded, options, monitor.stage("ridges", 0.0, 0.5));
   const TraceGraph graph = traced_graph(photo, evidence, excluded, options, monitor);
   TreeOptions tree;
   tree.roots = parse_points("root", options.root);
@@ -320,6 +234,7 @@ Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Mo
   if (field && tree.roots.empty()) landmark = find_landmark(photo.color, graph, excluded, branches_monitor);
   Annotation annotation = landmark ? rooted_on(*landmark, graph, photo.color.size(), regions)
                                    : annotation_from_graph(graph, photo.color.size(), tree);
+  if (by_itself) annotation = without_stubs(annotation);
   calm_radii(annotation);
   annotation = thinned_out(annotation);
   sign_annotation(annotation, photo, evidence);

@@ -20,19 +20,20 @@ struct TraceOptions {
   TraceMode mode = TraceMode::Auto;              // ridges, a two-class mask, or ridges plus a mask of what is thicker
   TracePolarity polarity = TracePolarity::Auto;  // of the branches against their surround
   Channel channel = Channel::Auto;
-  double min_radius = 1.0;     // px, 0.5 … 100: half width of the thinnest branches
-  double max_radius = 10.0;    // px, 0.5 … 1000: half width of the thickest branches found as ridges
-  double sensitivity = 1.0;    // 0.05 … 20: more finds fainter branches
-  double min_length = 30.0;    // px, 1 … 10000: shorter pieces are dropped
-  double gap = 6.0;            // radii, 0 … 50: interruptions that are bridged
-  bool flatten = true;         // even out slow changes of tone and contrast first
-  std::string through;         // px "x,y x,y …; x,y …": strokes to follow by live wire
-  bool automatic = false;      // with `through`: find the other branches as well
-  bool straight = false;       // with `through`: follow the points alone, not the picture
-  std::string root;            // px "x,y x,y …": where the structure starts
-  std::string regions;         // "outside: x,y x,y x,y …; keep: …; ignore: …; landmark: …" polygons, px
-  bool find_regions = true;    // without `regions`: a black surround is outside, a spot in its field where thick branches
-                               // meet a landmark
+  double min_radius = 1.0;   // px, 0.5 … 100: half width of the thinnest branches
+  double max_radius = 10.0;  // px, 0.5 … 1000: half width of the thickest branches found as ridges
+  double sensitivity = 1.0;  // 0.05 … 20: more finds fainter branches
+  double min_length = 30.0;  // px, 1 … 10000: shorter pieces are dropped
+  double gap = 6.0;          // radii, 0 … 50: interruptions that are bridged
+  bool flatten = true;       // even out slow changes of tone and contrast first
+  std::string through;       // px "x,y x,y …; x,y …": strokes to follow by live wire
+  bool automatic = false;    // with `through`: find the other branches as well
+  bool straight = false;     // with `through`: follow the points alone, not the picture
+  double banks = 40.0;       // px, 0 … 10000: with `through`, wider branches are traced by their two banks; 0: never
+  std::string root;          // px "x,y x,y …": where the structure starts
+  std::string regions;       // "outside: x,y x,y x,y …; keep: …; ignore: …; landmark: …" polygons, px
+  bool find_regions = true;  // without `regions`: a black surround is outside, a spot in its field where thick branches
+                             // meet a landmark
 };
 std::vector<OptionField> describe(TraceOptions& options);
 

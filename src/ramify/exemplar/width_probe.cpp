@@ -10,13 +10,15 @@
 namespace ramify {
 namespace {
 
-constexpr double kStep = 0.25;         // px between samples of a profile
-constexpr double kSampling = 0.5;      // px, blur by pixel area and bilinear reading: sqrt(1/12 + 1/6)
-constexpr int kCandidates = 6;         // edges kept per side
-constexpr double kWeakest = 0.2;       // of the profile's strongest edge
-constexpr double kDummyCost = -0.2;    // cost of "no pair here"; a clear pair costs about -2
-constexpr double kJump = 4.0;          // weight of squared edge moves between neighbours
-constexpr double kLargestJump = 3.0;   // so that a branch can recover after a disturbance
+constexpr double kStep = 0.25;       // px between samples of a profile
+constexpr double kSampling = 0.5;    // px, blur by pixel area and bilinear reading: sqrt(1/12 + 1/6)
+constexpr int kCandidates = 6;       // edges kept per side
+constexpr double kWeakest = 0.2;     // of the profile's strongest edge
+constexpr double kDummyCost = -0.2;  // cost of "no pair here"; a clear pair costs about -2
+constexpr double kJump = 4.0;        // weight of squared edge moves between neighbours
+constexpr double kFarOff =
+    2.0;  // of the prior radius: a glow that is half as bright only farther out is not the branch's
+constexpr double kLargestJump = 3.0;  // so that a branch can recover after a disturbance
 
 struct Profile {
   std::vector<double> values;  // along the normal, kStep apart, positive where the branch is stronger than the surround
@@ -104,8 +106,9 @@ std::vector<Pair> pairs_of(const Profile& p, double prior, double max_radius) {
       if (radius < 0.4 || radius > max_radius || std::abs(middle) > 0.6 * prior + 1.5) continue;
       const double ratio = std::log(radius / prior);
       const double strength = std::min(left.strength, 1.5) + std::min(right.strength, 1.5);
-      pairs.push_back({left.at, right.at, 0.5 * strength,
-                       -strength + 0.1 * std::abs(std::abs(left.at) - std::abs(right.at)) / prior + 0.6 * ratio * ratio});
+      pairs.push_back(
+          {left.at, right.at, 0.5 * strength,
+           -strength + 0.1 * std::abs(std::abs(left.at) - std::abs(right.at)) / prior + 0.6 * ratio * ratio});
     }
   }
   return pairs;
@@ -114,7 +117,8 @@ std::vector<Pair> pairs_of(const Profile& p, double prior, double max_radius) {
 double jump_cost(const Pair& a, const Pair& b, double spacing) {
   if (a.strength == 0.0 || b.strength == 0.0) return a.strength == b.strength ? 0.0 : 0.5;
   const double dl = b.left - a.left, dr = b.right - a.right;
-  return std::min(kLargestJump, kJump * (dl * dl + dr * dr) / (spacing * spacing + 0.05 * (a.right - a.left) * (a.right - a.left)));
+  return std::min(kLargestJump,
+                  kJump * (dl * dl + dr * dr) / (spacing * spacing + 0.05 * (a.right - a.left) * (a.right - a.left)));
 }
 
 // The cheapest sequence of pairs along the branch (Viterbi).
@@ -163,7 +167,8 @@ Pair half_contrast(const Profile& p, double prior, double max_radius) {
   pair.left = p.at(a) - kStep * (p.values[a] - level) / (p.values[a] - p.values[a - 1]);
   pair.right = p.at(b) + kStep * (p.values[b] - level) / (p.values[b] - p.values[b + 1]);
   pair.strength = std::min(1.0, contrast / 0.2);
-  if (0.5 * (pair.right - pair.left) > max_radius) pair.strength = 0.0;
+  // At a faint end the half height is reached far off, on another branch's glow.
+  if (0.5 * (pair.right - pair.left) > std::min(max_radius, kFarOff * prior + 1.0)) pair.strength = 0.0;
   return pair;
 }
 
@@ -204,8 +209,10 @@ ProbedLine probe_once(const ScalarImage& picture, const std::vector<Vec2>& line,
     normals.push_back(perpendicular(along));
     const double span = std::min(std::max(4.0 * prior[i], 12.0), 2.0 * options.max_radius + 8.0);
     const Profile p = read_profile(picture, line[i], along, span, options.bright);
-    if (options.glow) choices.push_back({half_contrast(p, prior[i], options.max_radius)});
-    else choices.push_back(pairs_of(p, prior[i], options.max_radius));
+    if (options.glow)
+      choices.push_back({half_contrast(p, prior[i], options.max_radius)});
+    else
+      choices.push_back(pairs_of(p, prior[i], options.max_radius));
     mean_prior += prior[i] / n;
   }
   const double spacing = n > 1 ? std::max(0.5, (line[1] - line[0]).norm()) : 1.0;
@@ -237,7 +244,8 @@ ProbedLine probe_once(const ScalarImage& picture, const std::vector<Vec2>& line,
 
 double bar_radius(double apparent, double sigma) {
   // The smoothed bar's slope G(x - w) - G(x + w) is steepest where (x - w) = (x + w) exp(-2 x w / sigma^2). For thin
-  // bars x tends to sigma whatever w is; below 1.02 sigma the width cannot be told and the smallest useful one is given.
+  // bars x tends to sigma whatever w is; below 1.02 sigma the width cannot be told and the smallest useful one is
+  // given.
   double low = 0.3, high = apparent;
   if (apparent <= low) return apparent;
   const auto excess = [&](double w) {
