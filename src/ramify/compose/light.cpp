@@ -15,31 +15,31 @@
 namespace ramify {
 namespace {
 
-// How strongly the photo's branches of about this radius (px) glow beside the model. What burns out looks equally bright,
-// but thick strokes burn out further.
-double usual_gain(const LightSource& source, const LightLayer& layer, double radius) {
-  constexpr double kAlike = 0.25;  // log ratio of radii
-  double sum = 0.0, weight = 0.0;
-  for (const Strand& s : source.strands) {
-    for (int t = s.first; t < s.count(); t += 4) {
-      const double w = std::exp(-0.5 * std::pow(std::log(s.radii[t] / radius) / kAlike, 2)) + 1e-9;
-      sum += w * sample_bilinear(layer.glow_gain, s.points[t]), weight += w;
-    }
-  }
-  return weight > 0.0 ? sum / weight : 1.0;
+// How strongly the photo's branches of this radius (px) glow beside the model.
+double usual_gain(const LightLayer& layer, double radius) {
+  const auto& table = layer.gain_of_radius;
+  if (table.empty()) return 1.0;
+  const auto above =
+      std::upper_bound(table.begin(), table.end(), radius, [](double r, const auto& e) { return r < e.first; });
+  if (above == table.begin()) return table.front().second;
+  if (above == table.end()) return table.back().second;
+  const auto& [r0, g0] = *(above - 1);
+  const double u = std::log(radius / r0) / std::log(above->first / r0);
+  return (1.0 - u) * g0 + u * above->second;
 }
 
 // That gain on every pixel of the new branches; where they overlap the larger.
-ScalarImage gain_by_width(const LightSource& source, const LightLayer& layer, const std::vector<Strand>& targets, Size size) {
+ScalarImage gain_by_width(const LightLayer& layer, const std::vector<Strand>& targets, Size size) {
   constexpr double kLeast = 0.25, kStep = 0.1;  // px, log ratio: the table's first radius and its step
   std::vector<float> table;
-  for (int k = 0; k < 64; ++k) table.push_back(static_cast<float>(usual_gain(source, layer, kLeast * std::exp(kStep * k))));
+  for (int k = 0; k < 64; ++k) table.push_back(static_cast<float>(usual_gain(layer, kLeast * std::exp(kStep * k))));
   ScalarImage gain(size);
   for (const Strand& s : targets) {
     for (int t = 0; t < s.count(); ++t) {
       const double r = std::max(kLeast, s.radii[t]), reach = 1.3 * r + 1.0;
       const float g = table[std::clamp(static_cast<int>(std::lround(std::log(r / kLeast) / kStep)), 0, 63)];
-      const int cx = static_cast<int>(std::lround(s.points[t].x())), cy = static_cast<int>(std::lround(s.points[t].y()));
+      const int cx = static_cast<int>(std::lround(s.points[t].x())),
+                cy = static_cast<int>(std::lround(s.points[t].y()));
       const int half = static_cast<int>(std::ceil(reach));
       for (int y = std::max(0, cy - half); y <= std::min(size.height - 1, cy + half); ++y) {
         for (int x = std::max(0, cx - half); x <= std::min(size.width - 1, cx + half); ++x) {
@@ -52,16 +52,19 @@ ScalarImage gain_by_width(const LightSource& source, const LightLayer& layer, co
 }
 
 // Linear light inside the new branches: what was laid plus the far glow that was taken off where it came from.
-ColorImage new_core(const LightLayer& layer, const LightSource& source, const WovenLight& woven, const std::vector<Strand>& targets) {
-  const ScalarImage gain = gain_by_width(source, layer, targets, woven.value.size());
+ColorImage new_core(const LightLayer& layer, const WovenLight& woven, const std::vector<Strand>& targets) {
+  const ScalarImage gain = gain_by_width(layer, targets, woven.value.size());
   ColorImage core(woven.value.size());
-  parallel_for(core.height(), [&](int y) {
-    for (int x = 0; x < core.width(); ++x) {
-      if (gain(x, y) <= 0.0f || woven.owner(x, y) == kNone) continue;
-      const Rgb glow = sample_bilinear(layer.glow, woven.source(x, y).cast<double>());
-      for (int c = 0; c < 3; ++c) core(x, y)[c] = gain(x, y) * std::min(1.0f, woven.value(x, y)[c] + glow[c]);
-    }
-  }, 32);
+  parallel_for(
+      core.height(),
+      [&](int y) {
+        for (int x = 0; x < core.width(); ++x) {
+          if (gain(x, y) <= 0.0f || woven.owner(x, y) == kNone) continue;
+          const Rgb glow = sample_bilinear(layer.glow, woven.source(x, y).cast<double>());
+          for (int c = 0; c < 3; ++c) core(x, y)[c] = gain(x, y) * std::min(1.0f, woven.value(x, y)[c] + glow[c]);
+        }
+      },
+      32);
   return core;
 }
 
@@ -72,16 +75,19 @@ ScalarImage own_glow(const WovenLight& woven, const std::vector<Strand>& targets
   return inside;
 }
 
-// Where the new picture shows the grain of the copied branch, 0..1.
-ScalarImage own_grain(const LightLayer& layer, const WovenLight& woven) {
-  ScalarImage inside(woven.value.size());
-  parallel_for(inside.height(), [&](int y) {
-    for (int x = 0; x < inside.width(); ++x) {
-      if (woven.owner(x, y) == kNone) continue;
-      inside(x, y) = woven.window(x, y) * sample_bilinear(layer.inside, woven.source(x, y).cast<double>());
-    }
-  }, 32);
-  return inside;
+// A share of the photo's layer (its own grain, its opaque cores) where it was laid, 0..1.
+ScalarImage carried(const ScalarImage& share, const WovenLight& woven) {
+  ScalarImage out(woven.value.size());
+  parallel_for(
+      out.height(),
+      [&](int y) {
+        for (int x = 0; x < out.width(); ++x) {
+          if (woven.owner(x, y) == kNone) continue;
+          out(x, y) = woven.window(x, y) * sample_bilinear(share, woven.source(x, y).cast<double>());
+        }
+      },
+      32);
+  return out;
 }
 
 // What stands in front hides the light behind it, with an edge softened by 0.8 px.
@@ -112,14 +118,17 @@ LightScene light_scene(const Exemplar& exemplar, const Habitat& habitat, const P
   scene.brighter = exemplar.polarity != Polarity::Dark;
   if (!habitat.shadow_is_texture) scene.shadow = habitat.shadow;
   scene.unusable = Mask(scene.photo.size(), 0);
+  scene.hiding = habitat.outside;
   const auto mark = [&](const Mask& mask) {
-    for (std::size_t i = 0; i < mask.pixels().size(); ++i) if (mask.pixels()[i]) scene.unusable.pixels()[i] = 255;
+    for (std::size_t i = 0; i < mask.pixels().size(); ++i)
+      if (mask.pixels()[i]) scene.unusable.pixels()[i] = 255;
   };
   mark(habitat.outside);
   mark(habitat.outliers);
   for (std::size_t i = 0; i < exemplar.regions.pixels().size(); ++i) {
     const auto role = static_cast<RegionRole>(exemplar.regions.pixels()[i]);
     if (role == RegionRole::Ignore || role == RegionRole::Keep) scene.unusable.pixels()[i] = 255;
+    if (role == RegionRole::Keep) scene.hiding.pixels()[i] = 255;
   }
   return scene;
 }
@@ -127,20 +136,23 @@ LightScene light_scene(const Exemplar& exemplar, const Habitat& habitat, const P
 Composite compose_light(const LightScene& scene, const Skeleton& exemplar, const Skeleton& target, CompositeMode mode,
                         const ComposeOptions& options, Rng rng, const Monitor& monitor) {
   const LightRules rules = light_rules(mode);
-  const std::vector<Strand> own = make_strands(exemplar);
+  std::vector<Strand> own = make_strands(exemplar);
+  close_hidden_ends(own, scene.hiding);
   const LightLayer layer = make_light_layer(scene.photo, scene.plate, own, mode, scene.brighter);
   monitor.report(0.1);
   const LightSource source = make_light_source(own, layer, scene.shadow, scene.unusable, rules);
   std::vector<Strand> targets = make_strands(target);
-  assign_levels(targets, source, rng);
+  close_hidden_ends(targets, scene.front);
+  assign_levels(targets, source, rules.tip_fade, rng);
   monitor.report(0.2);
   WovenLight woven = weave_light(source, layer, targets, scene.background.size(), rules, options.leave_out, rng,
                                  monitor.stage("light", 0.2, 0.9));
   const bool emits = mode == CompositeMode::Emit;
-  const ColorImage core = emits ? new_core(layer, source, woven, targets) : ColorImage();
-  const ScalarImage inside = emits ? own_glow(woven, targets) : own_grain(layer, woven);
+  const ColorImage core = emits ? new_core(layer, woven, targets) : ColorImage();
+  const ScalarImage inside = emits ? own_glow(woven, targets) : carried(layer.inside, woven);
+  const ScalarImage opaque = emits ? carried(layer.opaque, woven) : ScalarImage();
   Composite result;
-  result.color = apply_light(layer, scene.background, woven.value, core, inside);
+  result.color = apply_light(layer, scene.background, woven.value, core, inside, opaque);
   result.plate = scene.background;
   result.owner = std::move(woven.owner);
   result.source = std::move(woven.source);

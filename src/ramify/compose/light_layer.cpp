@@ -11,20 +11,28 @@
 namespace ramify {
 namespace {
 
-constexpr float kClipped = 245.0f / 255.0f;   // a channel above is burnt out
-constexpr float kClippedLight = 1.0f;         // linear light such a core is given on top (PICTURES 12.3-4)
-constexpr float kLogFloor = 3.0f / 255.0f;    // keeps ratios finite and quiet in the dark
-constexpr double kGainSigma = 30.0;           // px
-constexpr float kGainFoot = 0.01f;             // weighted light squared: where there is no glow to measure the gain is 1
-constexpr float kDark = 0.03f;                 // linear light
+constexpr float kClipped = 245.0f / 255.0f;  // a channel above is burnt out
+constexpr float kDim = 200.0f / 255.0f;      // a channel below lets all that is behind through
+constexpr float kLeastApart = 0.2f;          // linear light; a core is opaque from twice this above what is behind it
+constexpr float kClippedLight = 1.0f;        // linear light such a core is given on top (PICTURES 12.3-4)
+constexpr float kLogFloor = 3.0f / 255.0f;   // keeps ratios finite and quiet in the dark
+constexpr double kGainSigma = 30.0;          // px
+constexpr float kGainFoot = 0.01f;           // weighted light squared: where there is no glow to measure the gain is 1
+constexpr int kWidthClasses = 5;
+constexpr float kDark = 0.03f;  // linear light
 constexpr float kGainLow = 0.1f, kGainHigh = 1.5f;
-constexpr float kCoreKept = 0.8f;              // share of the glow within a core that goes with the core: it is bright by itself
-constexpr double kPlateSigma = 3.0;           // px; the plate's own grain must not enter the layer
-constexpr float kTouched = 0.5f / 255.0f;     // the plate differs from the photo by more: inside a hole
+constexpr float kCoreKept = 0.8f;    // share of the glow within a core that goes with the core: it is bright by itself
+constexpr double kPlateSigma = 3.0;  // px; the plate's own grain must not enter the layer
+constexpr float kTouched = 0.5f / 255.0f;  // the plate differs from the photo by more: inside a hole
 
 template <class Body>
 void for_pixels(Size size, const Body& body) {
-  parallel_for(size.height, [&](int y) { for (int x = 0; x < size.width; ++x) body(x, y); }, 32);
+  parallel_for(
+      size.height,
+      [&](int y) {
+        for (int x = 0; x < size.width; ++x) body(x, y);
+      },
+      32);
 }
 
 Mask hole_of(const ColorImage& photo, const ColorImage& plate) {
@@ -43,17 +51,32 @@ ColorImage burnt_out(const ColorImage& photo, const ColorImage& plate) {
     for (int c = 0; c < 3; ++c) burnt(x, y)[c] = photo(x, y)[c] >= kClipped && plate(x, y)[c] < kClipped ? 1.0f : 0.0f;
   });
   burnt = gaussian_blur(burnt, 0.7);
-  for (Rgb& v : burnt.pixels()) for (int c = 0; c < 3; ++c) v[c] = std::max(0.0f, 2.0f * v[c] - 1.0f);
+  for (Rgb& v : burnt.pixels())
+    for (int c = 0; c < 3; ++c) v[c] = std::max(0.0f, 2.0f * v[c] - 1.0f);
   return burnt;
 }
 
-ColorImage emitted(const ColorImage& photo, const ColorImage& plate) {
+// 0..1 within the branches: how near the brightest channel is to burning out. A photo saturates: a core that burns out
+// looks the same before a black sky and before a bright cloud, so what is behind it neither adds to it nor may be taken
+// off. A cloud that burns out by itself is no core.
+ScalarImage opaque_core(const ColorImage& photo, const ColorImage& plate, const std::vector<Strand>& strands) {
+  ScalarImage opaque = core_share(strands, photo.size());
+  for_pixels(photo.size(), [&](int x, int y) {
+    const Rgb& v = photo(x, y);
+    const float apart = linear_from_srgb(luma(v)) - linear_from_srgb(luma(plate(x, y)));
+    opaque(x, y) *= std::clamp((std::max({v.r, v.g, v.b}) - kDim) / (kClipped - kDim), 0.0f, 1.0f) *
+                    std::clamp((apart - kLeastApart) / kLeastApart, 0.0f, 1.0f);
+  });
+  return opaque;
+}
+
+ColorImage emitted(const ColorImage& photo, const ColorImage& plate, const ScalarImage& opaque) {
   const ColorImage burnt = burnt_out(photo, plate);
   ColorImage out(photo.size());
   for_pixels(photo.size(), [&](int x, int y) {
     for (int c = 0; c < 3; ++c) {
-      const float light = linear_from_srgb(photo(x, y)[c]) - linear_from_srgb(plate(x, y)[c]);
-      out(x, y)[c] = std::max(0.0f, light) + kClippedLight * burnt(x, y)[c];
+      const float light = linear_from_srgb(photo(x, y)[c]) - (1.0f - opaque(x, y)) * linear_from_srgb(plate(x, y)[c]);
+      out(x, y)[c] = std::max(0.0f, light) + kClippedLight * opaque(x, y) * burnt(x, y)[c];
     }
   });
   return out;
@@ -65,7 +88,8 @@ ScalarImage as_scalar(const Mask& mask) {
   return out;
 }
 
-// Glow is measured off the branches, and best in the dark: before a bright cloud a fitted plate errs by more than the glow.
+// Glow is measured off the branches, and best in the dark: before a bright cloud a fitted plate errs by more than the
+// glow.
 ScalarImage fit_weight(const ColorImage& plate, const Mask& branches) {
   ScalarImage weight(plate.size());
   for_pixels(plate.size(), [&](int x, int y) {
@@ -91,6 +115,52 @@ ScalarImage glow_gain(const ColorImage& light, const ColorImage& glow, const Sca
     gain(x, y) = std::clamp((p.r + kGainFoot) / (p.g + kGainFoot), kGainLow, kGainHigh);
   });
   return gain;
+}
+
+// How strongly branches glow by their width. Each width's own glow must be told from that of a thicker branch beside
+// it, so all are fitted at once.
+std::vector<std::pair<double, double>> fit_gain_of_radius(const GlowModel& model, const ColorImage& core,
+                                                          const ColorImage& light, const ScalarImage& weight,
+                                                          const std::vector<Strand>& strands) {
+  double low = 1e9, high = 0.0;
+  for (const Strand& s : strands)
+    for (const double r : s.radii) low = std::min(low, r), high = std::max(high, r);
+  if (high <= 0.0) return {};
+  const int classes = high < 1.5 * low ? 1 : kWidthClasses;
+  const double step = std::log(high / low) / classes + 1e-9;
+  const auto class_of = [&](double r) {
+    return std::clamp(static_cast<int>(std::log(r / low) / step), 0, classes - 1);
+  };
+  std::vector<std::pair<double, double>> out;
+  std::vector<ColorImage> glows;
+  Mask taken(core.size(), 0);
+  for (int k = classes - 1; k >= 0; --k) {  // thick ones first: where branches overlap the light is theirs
+    std::vector<Strand> of_class;
+    double sum = 0.0;
+    int count = 0;
+    for (const Strand& s : strands) {
+      Strand part;
+      for (int t = 0; t < s.count(); ++t) {
+        if (class_of(s.radii[t]) != k) continue;
+        part.points.push_back(s.points[t]), part.radii.push_back(s.radii[t]);
+        sum += s.radii[t], ++count;
+      }
+      if (!part.points.empty()) of_class.push_back(std::move(part));
+    }
+    if (count == 0) continue;
+    const Mask here = strand_mask(of_class, core.size(), 1.3, 1.0);
+    ColorImage own(core.size());
+    for_pixels(core.size(), [&](int x, int y) {
+      if (here(x, y) && !taken(x, y)) own(x, y) = core(x, y);
+    });
+    for (std::size_t i = 0; i < taken.pixels().size(); ++i) taken.pixels()[i] |= here.pixels()[i];
+    out.emplace_back(sum / count, 1.0);
+    glows.push_back(render_glow(model, own));
+  }
+  const std::vector<double> gains = fit_gains(glows, light, weight);
+  for (std::size_t i = 0; i < gains.size(); ++i) out[i].second = std::clamp(gains[i], 0.0, 2.0 * kGainHigh);
+  std::reverse(out.begin(), out.end());
+  return out;
 }
 
 ColorImage absorbed(const ColorImage& photo, const ColorImage& plate, const Mask& hole, bool brighter) {
@@ -127,18 +197,22 @@ LightLayer make_light_layer(const ColorImage& photo, const ColorImage& plate, co
     layer.inside = as_scalar(hole);
     return layer;
   }
-  ColorImage light = emitted(photo, plate);
+  layer.opaque = opaque_core(photo, plate, strands);
+  const ColorImage light = emitted(photo, plate, layer.opaque);
   const Mask branches = strand_mask(strands, photo.size(), 1.3, 1.0);
   ColorImage core(photo.size());
   for_pixels(photo.size(), [&](int x, int y) {
-    if (branches(x, y)) for (int c = 0; c < 3; ++c) core(x, y)[c] = std::min(1.0f, light(x, y)[c]);
+    if (branches(x, y))
+      for (int c = 0; c < 3; ++c) core(x, y)[c] = std::min(1.0f, light(x, y)[c]);
   });
   const ScalarImage around = fit_weight(plate, strand_mask(strands, photo.size(), 1.5, 6.0));
   layer.glow_model = fit_glow(core, light, around);
   layer.glow_gain = glow_gain(light, render_glow(layer.glow_model, core), around);
+  const ColorImage plain = core;
   for_pixels(photo.size(), [&](int x, int y) { core(x, y) = layer.glow_gain(x, y) * core(x, y); });
   layer.glow_model = fit_glow(core, light, around);
   layer.glow = render_glow(layer.glow_model, core);
+  layer.gain_of_radius = fit_gain_of_radius(layer.glow_model, plain, light, around, strands);
   const ScalarImage kept = core_share(strands, photo.size());
   layer.value = ColorImage(photo.size());
   for_pixels(photo.size(), [&](int x, int y) {
@@ -150,7 +224,7 @@ LightLayer make_light_layer(const ColorImage& photo, const ColorImage& plate, co
 }
 
 ColorImage apply_light(const LightLayer& layer, const ColorImage& background, const ColorImage& value,
-                       const ColorImage& core, const ScalarImage& inside) {
+                       const ColorImage& core, const ScalarImage& inside, const ScalarImage& opaque) {
   ColorImage out(background.size());
   if (layer.mode == CompositeMode::Emit) {
     const ColorImage glow = render_glow(layer.glow_model, core);
@@ -158,7 +232,9 @@ ColorImage apply_light(const LightLayer& layer, const ColorImage& background, co
       for (int c = 0; c < 3; ++c) {
         const float around = (1.0f - kCoreKept * inside(x, y)) * glow(x, y)[c];
         const float light = std::max(glow(x, y)[c], value(x, y)[c] + around);  // never darker than the glow alone
-        out(x, y)[c] = std::clamp(srgb_from_linear(linear_from_srgb(background(x, y)[c]) + light), 0.0f, 1.0f);
+        const float behind = linear_from_srgb(background(x, y)[c]);
+        const float seen = std::max(behind, (1.0f - opaque(x, y)) * behind + light);  // light never darkens
+        out(x, y)[c] = std::clamp(srgb_from_linear(seen), 0.0f, 1.0f);
       }
     });
     return out;

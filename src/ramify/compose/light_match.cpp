@@ -9,26 +9,28 @@ namespace ramify {
 namespace {
 
 constexpr int kShapeSamples = 11;
-constexpr double kShapeWeight = 1.0;      // copies bend freely; a like course saves them from being stretched
+constexpr double kShapeWeight = 1.0;  // copies bend freely; a like course saves them from being stretched
 constexpr double kBadWeight = 4.0;
 constexpr double kReuseWeight = 0.03;
-constexpr double kEarlyWeight = 0.15;   // a child's start likes the middle of a source branch (PICTURES 12.3-10)
-constexpr double kFrameCost = 0.3;      // the disc leaves the photo
+constexpr double kEarlyWeight = 0.15;  // a child's start likes the middle of a source branch (PICTURES 12.3-10)
+constexpr double kFrameCost = 0.3;     // the disc leaves the photo
 constexpr double kHueWeight = 0.5;
-constexpr double kMisfitWeight = 6.0;   // of widths that differ by more than the strictest choice allows
+constexpr double kWidthWeight =
+    3.0;  // per squared log ratio: light that is stretched across grows ragged and its fringes wide
+constexpr double kMisfitWeight = 6.0;  // of widths that differ by more than the strictest choice allows
 constexpr double kNoise = 0.02;
 constexpr double kBanned = 1e3;
-constexpr double kNoTip = 0.3;          // an open tip that the source does not end in: the fade has to make it
+constexpr double kNoTip = 0.3;  // an open tip that the source does not end in: the fade has to make it
 
 // What all sources are compared with.
 struct Goal {
   int sample = 0;
-  double s = 0.0;       // px, radius of the disc
+  double s = 0.0;  // px, radius of the disc
   double radius = 1.0;
   Vec3 level = Vec3::Zero();
-  int to_end = 0;       // samples left to the tip
-  bool tip = false;     // the disc holds an open tip
-  bool start = false;   // the disc holds the base
+  int to_end = 0;      // samples left to the tip
+  bool tip = false;    // the disc holds an open tip
+  bool start = false;  // the disc holds the base
   std::array<int, kShapeSamples> offsets{};
   std::array<Vec2, kShapeSamples> shape{};
   std::array<bool, kShapeSamples> valid{};
@@ -54,8 +56,12 @@ Goal make_goal(const Strand& target, int sample, const LightRules& rules) {
 }
 
 // How strict the choice of spots is: relaxed step by step when too few are left.
-struct Strictness { double log_radius, tip_offset, surround; bool real_tip; };
-constexpr std::array<Strictness, 3> kStrictness{{{0.45, 2.5, 1.0, true}, {0.9, 4.0, 0.5, false}, {9.0, 1e9, 0.0, false}}};
+struct Strictness {
+  double log_radius, tip_offset, surround;
+  bool real_tip;
+};
+constexpr std::array<Strictness, 3> kStrictness{
+    {{0.45, 2.5, 1.0, true}, {0.9, 4.0, 0.5, false}, {9.0, 1e9, 0.0, false}}};
 
 bool admits(const Strictness& strict, const Goal& goal, const Strand& strand, int sample) {
   const double to_end = strand.count() - 1 - sample;
@@ -66,7 +72,9 @@ bool admits(const Strictness& strict, const Goal& goal, const Strand& strand, in
 
 // Brightness and hue apart: a branch may be somewhat brighter than asked for, but not of another colour.
 double level_cost(const Vec3& level, const Vec3& wanted) {
-  const auto log_ratio = [](double a, double b) { return std::log((std::max(0.0, a) + 0.02) / (std::max(0.0, b) + 0.02)); };
+  const auto log_ratio = [](double a, double b) {
+    return std::log((std::max(0.0, a) + 0.02) / (std::max(0.0, b) + 0.02));
+  };
   const double brightness = log_ratio(level.mean(), wanted.mean());
   double hue = 0.0;
   for (int c = 0; c < 3; ++c) hue += std::pow(log_ratio(level[c], wanted[c]) - brightness, 2);
@@ -74,10 +82,12 @@ double level_cost(const Vec3& level, const Vec3& wanted) {
 }
 
 // The part of the cost that needs no shapes.
-double plain_cost(const LightSource& source, const SourceSpot& spot, const Goal& goal, const Vec2& place, double leave_out) {
+double plain_cost(const LightSource& source, const SourceSpot& spot, const Goal& goal, const Vec2& place,
+                  double leave_out) {
   const Strand& strand = source.strands[spot.strand];
   const double width = std::abs(std::log(strand.radii[spot.sample] / goal.radius));
-  double cost = spot.penalty + width * width + kMisfitWeight * std::pow(std::max(0.0, width - kStrictness[0].log_radius), 2);
+  double cost = spot.penalty + kWidthWeight * width * width +
+                kMisfitWeight * std::pow(std::max(0.0, width - kStrictness[0].log_radius), 2);
   if (goal.level.sum() > 0.0) cost += level_cost(strand.level[spot.sample], goal.level);
   if (goal.start && spot.sample < 2.0 * goal.s) cost += kEarlyWeight;
   if ((strand.points[spot.sample] - place).norm() < leave_out) cost += kBanned;
@@ -106,7 +116,8 @@ double course_cost(const LightSource& source, const SourceSpot& spot, const Goal
   return kShapeWeight * misfit / (kShapeSamples * goal.s * goal.s) + kBadWeight * bad / kShapeSamples;
 }
 
-// Extra cost of other branches within 0.7 s, beyond what a branch of this width covers itself, and of leaving the photo.
+// Extra cost of other branches within 0.7 s, beyond what a branch of this width covers itself, and of leaving the
+// photo.
 double surround_cost(const LightSource& source, const SourceSpot& spot, const Goal& goal) {
   const Vec2 centre = source.position(spot);
   const double s = goal.s;
@@ -155,19 +166,22 @@ std::vector<int> fragment_centres(const Strand& target, const LightRules& rules)
 }
 
 std::optional<LightMatch> continue_light(const LightSource& source, const Strand& target, int before_sample,
-                                         const LightMatch& before, int sample, const LightRules& rules, double leave_out) {
+                                         const LightMatch& before, int sample, const LightRules& rules,
+                                         double leave_out) {
   const Goal goal = make_goal(target, sample, rules);
   LightMatch match = before;
   match.place.sample += sample - before_sample;
   const Strand& strand = source.strands[match.place.strand];
   const int left = strand.count() - 1 - match.place.sample;
-  if (left < 0 || strand.bad[match.place.sample] || (!goal.tip && left < std::min(goal.s, 1.0 * goal.to_end))) return std::nullopt;
-  while (match.spot + 2 < static_cast<int>(source.spots.size()) && source.spots[match.spot + 2].strand == match.place.strand &&
+  if (left < 0 || strand.bad[match.place.sample] || (!goal.tip && left < std::min(goal.s, 1.0 * goal.to_end)))
+    return std::nullopt;
+  while (match.spot + 2 < static_cast<int>(source.spots.size()) &&
+         source.spots[match.spot + 2].strand == match.place.strand &&
          source.spots[match.spot + 2].sample <= match.place.sample) {
     match.spot += 2;  // each place is listed as it is and mirrored
   }
-  match.cost = plain_cost(source, match.place, goal, target.points[sample], leave_out) + course_cost(source, match.place, goal) +
-               surround_cost(source, match.place, goal);
+  match.cost = plain_cost(source, match.place, goal, target.points[sample], leave_out) +
+               course_cost(source, match.place, goal) + surround_cost(source, match.place, goal);
   if (goal.tip && std::abs(left - goal.to_end) > kStrictness[0].tip_offset) match.cost += kNoTip;
   if (match.cost >= kBanned) return std::nullopt;
   return match;

@@ -11,22 +11,21 @@
 namespace ramify {
 namespace {
 
-constexpr double kThin = 3.2;            // px; thin branches have their rim nearer
+constexpr double kThin = 3.2;                        // px; thin branches have their rim nearer
 constexpr double kRimThin = 0.55, kRimThick = 0.74;  // share of s where the surround begins
 constexpr double kForeignCost = 1.5;
 constexpr double kUnevenCost = 3.0;
-constexpr double kRimFrom = 0.8;         // share of s from where the disc itself fades, for ends and hairpins
-constexpr double kSharpTurn = 1.0;       // rad within one radius s
+constexpr double kRimFrom = 0.8;    // share of s from where the disc itself fades, for ends and hairpins
+constexpr double kSharpTurn = 1.0;  // rad within one radius s
 
 double ramp(double x) {
   x = std::clamp(x, 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
 }
 
-double end_fade(const Strand& target, const Vec2& p, int t, const LightRules& rules) {
-  double fade = 1.0;
-  if (target.open_end) fade *= ramp((target.count() - 1 - t) / (rules.tip_fade * (1.0 + 1.2 * target.radii.back())));
-  if (target.open_start) fade *= ramp((t - target.first) / (rules.tip_fade * (1.0 + 1.2 * target.radii[target.first])));
+// What is left at p, nearest to sample t: free ends fade, and nothing sticks out behind a parent.
+double fade_at(const Strand& target, const Vec2& p, int t, const LightRules& rules) {
+  double fade = end_fade(target, t, rules.tip_fade);
   if (target.parent != kNone && t == target.first) {
     const Vec2 n = target.normals[t], tangent(n.y(), -n.x());
     const double beyond = -(p - target.points[t]).dot(tangent) - target.behind;
@@ -59,8 +58,10 @@ std::vector<float> foreign_share(const LightSource& source, const PatchFrame& fr
     }
   };
   around(hit, wide, [](float v, float u, int, int) { return std::max(v, u); });
-  around(wide, soft, [](float v, float u, int i, int j) { return v + u * (i ? 1.0f : 2.0f) * (j ? 1.0f : 2.0f) / 16.0f; });
-  for (std::size_t i = 0; i < soft.size(); ++i) if (frame.distance[i] < 0.85 * frame.radius) soft[i] = 0.0f;
+  around(wide, soft,
+         [](float v, float u, int i, int j) { return v + u * (i ? 1.0f : 2.0f) * (j ? 1.0f : 2.0f) / 16.0f; });
+  for (std::size_t i = 0; i < soft.size(); ++i)
+    if (frame.distance[i] < 0.85 * frame.radius) soft[i] = 0.0f;
   return soft;
 }
 
@@ -129,7 +130,8 @@ double flaw_cost(const PatchFrame& frame, const std::vector<float>& foreign, con
   for (std::size_t i = 0; i < patch.value.size(); ++i) {
     if (!frame.core[i]) continue;
     alien += foreign[i], ++core;
-    if (frame.distance[i] < 0.7 * frame.radius) inner.push_back((patch.value[i].r + patch.value[i].g + patch.value[i].b) / 3.0f);
+    if (frame.distance[i] < 0.7 * frame.radius)
+      inner.push_back((patch.value[i].r + patch.value[i].g + patch.value[i].b) / 3.0f);
   }
   double uneven = 0.0;
   if (inner.size() > 4) {
@@ -168,7 +170,7 @@ PatchFrame patch_frame(const Strand& target, int sample, const LightRules& rules
       frame.distance.push_back(static_cast<float>(d));
       const double rim = ((p - frame.box.centre).norm() / s - kRimFrom) / (1.0 - kRimFrom);
       frame.window.push_back(static_cast<float>((1.0 - ramp((d - flat) / (band - flat + 1e-6))) * (1.0 - ramp(rim))));
-      frame.fade.push_back(static_cast<float>(end_fade(target, p, t, rules)));
+      frame.fade.push_back(static_cast<float>(fade_at(target, p, t, rules)));
       frame.mirror.push_back((across - Vec2(frame.box.x0, frame.box.y0)).cast<float>());
       frame.core.push_back(inside && d < core);
     }

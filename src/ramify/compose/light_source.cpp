@@ -16,19 +16,21 @@
 namespace ramify {
 namespace {
 
-constexpr double kThin = 3.2;          // px; below, a bright surround shows more than the branch
-constexpr double kBrightHalo = 0.06;   // linear light
+constexpr double kThin = 3.2;         // px; below, a bright surround shows more than the branch
+constexpr double kBrightHalo = 0.06;  // linear light
 constexpr double kHaloCost = 8.0;
-constexpr double kCourseSigma = 4.0;    // samples; the line follows the branch, not its finest bends, which are copied as they are
+constexpr double kCourseSigma =
+    4.0;  // samples; the line follows the branch, not its finest bends, which are copied as they are
 constexpr double kLeastProminence = 0.4;
-constexpr double kStraight = 0.75;      // chord per arc
-constexpr double kWiderThanUsual = 1.6;
-constexpr int kUsualReach = 40;         // samples
-constexpr float kWhite = 1.0f;          // linear light; for absorbing layers a transmission of 0.37, dark enough
-constexpr int kClean = 4;              // samples on both sides that must be good
+constexpr double kStraight = 0.75;  // chord per arc
+constexpr double kWiderThanUsual = 1.35;
+constexpr int kUsualReach = 40;  // samples
+constexpr float kWhite = 1.0f;   // linear light; for absorbing layers a transmission of 0.37, dark enough
+constexpr int kClean = 4;        // samples on both sides that must be good
 
-double strength(const Rgb& v) { return (v.r + v.g + v.b) / 3.0; }
-
+double strength(const Rgb& v) {
+  return (v.r + v.g + v.b) / 3.0;
+}
 
 // Moves a strand's samples to the centre of gravity of the layer across it; other strands do not pull.
 void recentre(Strand& strand, int own, const LightLayer& layer, const LabelImage& labels) {
@@ -80,13 +82,14 @@ double median_level(const std::vector<Strand>& strands) {
   return all[all.size() / 2];
 }
 
-// Turns back within its own width, or is suddenly much wider: a knot of the branch or a fault of the trace, and nothing that
-// could be laid elsewhere.
+// Turns back within its own width, or is suddenly much wider: a knot of the branch or a fault of the trace, and nothing
+// that could be laid elsewhere.
 bool tangled(const Strand& strand, int t) {
   const int reach = static_cast<int>(2.0 * strand.radii[t]) + 6;
   const int a = std::max(0, t - reach), b = std::min(strand.count() - 1, t + reach);
   if ((strand.points[b] - strand.points[a]).norm() < kStraight * (b - a)) return true;
-  std::vector<double> near(strand.radii.begin() + std::max(0, t - kUsualReach), strand.radii.begin() + std::min(strand.count(), t + kUsualReach + 1));
+  std::vector<double> near(strand.radii.begin() + std::max(0, t - kUsualReach),
+                           strand.radii.begin() + std::min(strand.count(), t + kUsualReach + 1));
   const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
   std::nth_element(near.begin(), middle, near.end());
   return strand.radii[t] > kWiderThanUsual * *middle;
@@ -101,8 +104,10 @@ bool doubled(const std::vector<Strand>& strands, int own, int t) {
     int beside = 0;
     for (int u = 0; u < strands[k].count(); u += 2) {
       const double d = (strands[k].points[u] - p).squaredNorm();
-      if (d < r * r) beside += 2;
-      else if (d > 1e4) u += 40;  // samples are 1 px apart
+      if (d < r * r)
+        beside += 2;
+      else if (d > 1e4)
+        u += 40;  // samples are 1 px apart
     }
     if (beside > 2.0 * r + 1.0) return true;
   }
@@ -146,7 +151,8 @@ bool clean_around(const Strand& strand, int t) {
   return true;
 }
 
-std::vector<SourceSpot> find_spots(const std::vector<Strand>& strands, const LightLayer& layer, const LightRules& rules) {
+std::vector<SourceSpot> find_spots(const std::vector<Strand>& strands, const LightLayer& layer,
+                                   const LightRules& rules) {
   std::vector<SourceSpot> spots;
   for (int k = 0; k < static_cast<int>(strands.size()); ++k) {
     const Strand& s = strands[k];
@@ -192,13 +198,15 @@ LightSource make_light_source(std::vector<Strand> strands, const LightLayer& lay
     }
   }
   source.cover = ScalarImage(size);
-  for (std::size_t i = 0; i < covered.pixels().size(); ++i) source.cover.pixels()[i] = covered.pixels()[i] ? 1.0f : 0.0f;
+  for (std::size_t i = 0; i < covered.pixels().size(); ++i)
+    source.cover.pixels()[i] = covered.pixels()[i] ? 1.0f : 0.0f;
   source.cover = gaussian_blur(source.cover, 0.8);
   source.strands = std::move(strands);
   source.spots = find_spots(source.strands, layer, rules);
   if (source.spots.empty()) {
-    throw InputError("exemplar", "no branch of the photo stands out from its background, so there is nothing to copy; "
-                                 "check the annotation, or try --composite paste");
+    throw InputError("exemplar",
+                     "no branch of the photo stands out from its background, so there is nothing to copy; "
+                     "check the annotation, or try --composite paste");
   }
   return source;
 }

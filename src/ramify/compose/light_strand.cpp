@@ -11,13 +11,14 @@
 namespace ramify {
 namespace {
 
-constexpr double kPositionSigma = 4.0;  // px; the source's and the target's zigzag are smoothed alike, and copies bring finer bends along
-constexpr double kRadiusSigma = 4.0;    // px
-constexpr int kRadiusMedian = 6;        // samples on both sides: a width that jumps up and back is a measuring fault
-constexpr double kFold = 0.45;           // chord / arc below which a stretch folds back on itself
-constexpr double kFrameMargin = 8.0;    // px
-constexpr double kLeastSlender = 3.0;   // a strand is at least so many times longer than its half width
-constexpr int kShortest = 3;            // px a branch must show outside its parent
+constexpr double kPositionSigma =
+    4.0;  // px; the source's and the target's zigzag are smoothed alike, and copies bring finer bends along
+constexpr double kRadiusSigma = 4.0;   // px
+constexpr int kRadiusMedian = 6;       // samples on both sides: a width that jumps up and back is a measuring fault
+constexpr double kFold = 0.45;         // chord / arc below which a stretch folds back on itself
+constexpr double kFrameMargin = 8.0;   // px
+constexpr double kLeastSlender = 3.0;  // a strand is at least so many times longer than its half width
+constexpr int kShortest = 3;           // px a branch must show outside its parent
 
 // Points and radii one px apart along a polyline.
 void resample(const Polyline& line, Strand& strand) {
@@ -162,7 +163,9 @@ void stamp(const Strand& strand, Size size, double grow, double add, const Write
 
 }  // namespace
 
-std::vector<double> smooth(const std::vector<double>& values, double sigma) { return smoothed(values, sigma, 0.0); }
+std::vector<double> smooth(const std::vector<double>& values, double sigma) {
+  return smoothed(values, sigma, 0.0);
+}
 
 std::vector<Vec3> smooth(const std::vector<Vec3>& values, double sigma) {
   return smoothed<Vec3>(values, sigma, Vec3::Zero());
@@ -175,7 +178,9 @@ std::vector<Vec2> line_normals(const std::vector<Vec2>& points) {
   along = smoothed<Vec2>(along, 2.0, Vec2::Zero());
   std::vector<Vec2> normals(n);
   for (int i = 0; i < n; ++i) {
-    normals[i] = along[i].norm() > 1e-9 ? perpendicular(along[i].normalized()) : i > 0 ? normals[i - 1] : Vec2(0.0, 1.0);
+    normals[i] = along[i].norm() > 1e-9 ? perpendicular(along[i].normalized())
+                 : i > 0                ? normals[i - 1]
+                                        : Vec2(0.0, 1.0);
   }
   return normals;
 }
@@ -207,10 +212,28 @@ std::vector<Strand> make_strands(const Skeleton& skeleton) {
   parallel_for(static_cast<int>(strands.size()), [&](int k) {
     Strand& s = strands[k];
     const Vec2 start = s.points.front(), end = s.points.back();
-    s.open_start = s.parent == kNone && !at_frame(start, skeleton.size) && !touches_other(strands, k, start, s.radii.front());
+    s.open_start =
+        s.parent == kNone && !at_frame(start, skeleton.size) && !touches_other(strands, k, start, s.radii.front());
     s.open_end = !at_frame(end, skeleton.size) && !touches_other(strands, k, end, s.radii.back());
   });
   return strands;
+}
+
+void close_hidden_ends(std::vector<Strand>& strands, const Mask& hidden) {
+  if (hidden.empty()) return;
+  const auto reaches = [&](const Vec2& p) {
+    const int reach = static_cast<int>(kFrameMargin), cx = static_cast<int>(std::lround(p.x())),
+              cy = static_cast<int>(std::lround(p.y()));
+    for (int y = std::max(0, cy - reach); y <= std::min(hidden.height() - 1, cy + reach); ++y) {
+      for (int x = std::max(0, cx - reach); x <= std::min(hidden.width() - 1, cx + reach); ++x)
+        if (hidden(x, y)) return true;
+    }
+    return false;
+  };
+  for (Strand& s : strands) {
+    if (reaches(s.points.front())) s.open_start = false;
+    if (reaches(s.points.back())) s.open_end = false;
+  }
 }
 
 LabelImage strand_labels(const std::vector<Strand>& strands, Size size, double grow, double add) {
@@ -225,6 +248,17 @@ Mask strand_mask(const std::vector<Strand>& strands, Size size, double grow, dou
   Mask mask(size, 0);
   for (const Strand& s : strands) stamp(s, size, grow, add, [&](int x, int y) { mask(x, y) = 255; });
   return mask;
+}
+
+double end_fade(const Strand& strand, int t, double tip_fade) {
+  const auto rise = [&](int samples, double radius) {
+    const double u = std::clamp(samples / (tip_fade * (1.0 + 1.2 * radius)), 0.0, 1.0);
+    return u * u * (3.0 - 2.0 * u);
+  };
+  double fade = 1.0;
+  if (strand.open_end) fade *= rise(strand.count() - 1 - t, strand.radii.back());
+  if (strand.open_start) fade *= rise(t - strand.first, strand.radii[strand.first]);
+  return fade;
 }
 
 double surround_radius(double radius, double factor, double cap) {

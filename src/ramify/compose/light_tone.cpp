@@ -10,22 +10,25 @@
 namespace ramify {
 namespace {
 
-constexpr double kFoot = 0.02;            // added to levels before they are compared by their ratio
-constexpr int kBins = 8;                  // of equal length of branch, by brightness
+constexpr double kFoot = 0.02;                 // added to levels before they are compared by their ratio
+constexpr int kBins = 8;                       // of equal length of branch, by brightness
 constexpr double kLeastOdd = 0.3, kOdd = 4.0;  // log ratio; times the median deviation
-constexpr double kLeastOfParent = 0.75;   // a child is dimmed to its parent's level, but no further than this
-constexpr double kBadTemplate = 0.7;      // cost of a template strand that is not fit to be copied
-constexpr double kBurnt = 0.85;           // level from which a core is burnt out, or a vessel as dark as they come
+constexpr double kLeastOfParent = 0.75;        // a child is dimmed to its parent's level, but no further than this
+constexpr double kBadTemplate = 0.7;           // cost of a template strand that is not fit to be copied
+constexpr double kBurnt = 0.85;                // level from which a core is burnt out, or a vessel as dark as they come
 constexpr double kLeastGain = 0.6, kMostGain = 1.6;
 constexpr double kLeastTint = 0.6, kMostTint = 1.6;
-constexpr double kGainSigma = 6.0;        // samples
+constexpr double kGainSigma = 6.0;  // samples
 
-double mean(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size()); }
+double mean(const std::vector<double>& v) {
+  return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+}
 
 // Log share of each channel in a level.
 Vec3 hue_of(const Vec3& level) {
   Vec3 hue;
-  for (int c = 0; c < 3; ++c) hue[c] = std::log((std::max(0.0, level[c]) + kFoot) / (std::max(0.0, level.mean()) + kFoot));
+  for (int c = 0; c < 3; ++c)
+    hue[c] = std::log((std::max(0.0, level[c]) + kFoot) / (std::max(0.0, level.mean()) + kFoot));
   return hue;
 }
 
@@ -39,22 +42,27 @@ double median(std::vector<double> values) {
 struct ColourScale {
   std::vector<double> brightness;  // ascending
   std::vector<Vec3> hue;
-  double deviation = 0.0;          // median of the largest channel's
+  std::vector<double> deviation;  // median of the largest channel's: faint light differs in colour more than cores do
 
-  Vec3 at(double level) const {
-    if (hue.empty()) return Vec3::Zero();
+  Vec3 at(double level) const { return hue.empty() ? Vec3(Vec3::Zero()) : between(hue, level); }
+  double deviation_at(double level) const { return deviation.empty() ? 0.0 : between(deviation, level); }
+
+ private:
+  template <class T>
+  T between(const std::vector<T>& values, double level) const {
     const auto above = std::upper_bound(brightness.begin(), brightness.end(), level) - brightness.begin();
-    if (above == 0) return hue.front();
-    if (above == static_cast<std::ptrdiff_t>(hue.size())) return hue.back();
+    if (above == 0) return values.front();
+    if (above == static_cast<std::ptrdiff_t>(values.size())) return values.back();
     const double u = (level - brightness[above - 1]) / (brightness[above] - brightness[above - 1] + 1e-12);
-    return (1.0 - u) * hue[above - 1] + u * hue[above];
+    return (1.0 - u) * values[above - 1] + u * values[above];
   }
 };
 
 ColourScale measure_colours(const std::vector<Strand>& strands) {
   std::vector<Vec3> levels;
   for (const Strand& s : strands) {
-    for (int t = s.first; t < s.count(); ++t) if (!s.bad[t]) levels.push_back(s.level[t]);
+    for (int t = s.first; t < s.count(); ++t)
+      if (!s.bad[t]) levels.push_back(s.level[t]);
   }
   ColourScale scale;
   std::stable_sort(levels.begin(), levels.end(), [](const Vec3& a, const Vec3& b) { return a.sum() < b.sum(); });
@@ -67,10 +75,12 @@ ColourScale measure_colours(const std::vector<Strand>& strands) {
     }
     scale.brightness.push_back(median(values[3]));
     scale.hue.emplace_back(median(values[0]), median(values[1]), median(values[2]));
+    std::vector<double> deviations;
+    for (std::size_t i = from; i < std::min(to, levels.size()); ++i) {
+      deviations.push_back((hue_of(levels[i]) - scale.hue.back()).cwiseAbs().maxCoeff());
+    }
+    scale.deviation.push_back(median(deviations));
   }
-  std::vector<double> deviations;
-  for (const Vec3& v : levels) deviations.push_back((hue_of(v) - scale.at(v.mean())).cwiseAbs().maxCoeff());
-  if (!deviations.empty()) scale.deviation = median(deviations);
   return scale;
 }
 
@@ -95,15 +105,15 @@ int template_strand(const Strand& target, const LightSource& source, Rng& rng) {
 
 void mark_odd_colours(std::vector<Strand>& strands) {
   const ColourScale usual = measure_colours(strands);
-  const double most = std::max(kLeastOdd, kOdd * usual.deviation);
   for (Strand& s : strands) {
     for (int t = 0; t < s.count(); ++t) {
-      if ((hue_of(s.level[t]) - usual.at(s.level[t].mean())).cwiseAbs().maxCoeff() > most) s.bad[t] = 1;
+      const double level = s.level[t].mean(), most = std::max(kLeastOdd, kOdd * usual.deviation_at(level));
+      if ((hue_of(s.level[t]) - usual.at(level)).cwiseAbs().maxCoeff() > most) s.bad[t] = 1;
     }
   }
 }
 
-void assign_levels(std::vector<Strand>& targets, const LightSource& source, Rng rng) {
+void assign_levels(std::vector<Strand>& targets, const LightSource& source, double tip_fade, Rng rng) {
   const ColourScale usual = measure_colours(source.strands);
   for (int k = 0; k < static_cast<int>(targets.size()); ++k) {
     Strand& target = targets[k];
@@ -116,7 +126,8 @@ void assign_levels(std::vector<Strand>& targets, const LightSource& source, Rng 
     std::vector<double> brightness(target.points.size());
     for (int t = 0; t < target.count(); ++t) {
       const double u = std::clamp((t - target.first) / span, 0.0, 1.0);
-      brightness[t] = std::max(source.weakest, s.level[s.first + static_cast<int>(std::lround(u * (s.count() - 1 - s.first)))].mean());
+      brightness[t] = std::max(source.weakest,
+                               s.level[s.first + static_cast<int>(std::lround(u * (s.count() - 1 - s.first)))].mean());
     }
     brightness = smooth(brightness, 6.0);
     if (target.parent != kNone) {
@@ -125,7 +136,8 @@ void assign_levels(std::vector<Strand>& targets, const LightSource& source, Rng 
       for (double& v : brightness) v *= share;
     }
     for (int t = 0; t < target.count(); ++t) {
-      const Vec3 colour = usual.at(brightness[t]).array().exp();
+      // A free end fades out through the colours that the photo's faint branches have.
+      const Vec3 colour = usual.at(brightness[t] * end_fade(target, t, tip_fade)).array().exp();
       target.level[t] = brightness[t] / colour.mean() * colour;
     }
   }
