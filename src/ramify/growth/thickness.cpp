@@ -2,6 +2,9 @@
 #include "ramify/growth/thickness.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "ramify/skeleton/radius_map.h"
 
 namespace ramify {
 namespace {
@@ -23,30 +26,22 @@ double free_room(const GrowthState& state, int number, const Vec2& point, double
 
 }  // namespace
 
-double at_same_share(const std::vector<double>& present, const std::vector<double>& wanted, double value) {
-  const auto [low, high] = std::equal_range(present.begin(), present.end(), value);
-  // Half of those that are equal lie below.
-  const double below = 0.5 * static_cast<double>((low - present.begin()) + (high - present.begin()));
-  const double place = below / static_cast<double>(present.size()) * static_cast<double>(wanted.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(place), wanted.size() - 1), next = std::min(i + 1, wanted.size() - 1);
-  return wanted[i] + (wanted[next] - wanted[i]) * (place - static_cast<double>(i));
-}
-
 void match_thickness(GrowthState& state) {
-  std::vector<double> wanted = state.style.bending.radius, present;
+  std::vector<double> radii;
   for (const GrowingBranch& branch : state.branches) {
     for (int i = 0; i < branch.count(); ++i) {
-      if (state.ground.on_canvas(branch.points[i])) present.push_back(branch.radii[i]);
+      if (state.ground.on_canvas(branch.points[i])) radii.push_back(branch.radii[i]);
     }
   }
-  if (present.empty()) return;
-  std::sort(wanted.begin(), wanted.end());
-  std::sort(present.begin(), present.end());
+  if (radii.empty()) return;
+  const RadiusSpread present = measure_radius_spread(std::move(radii)),
+                     wanted = measure_radius_spread(state.style.bending.radius);
   for (int b = 0; b < static_cast<int>(state.branches.size()); ++b) {
     GrowingBranch& branch = state.branches[b];
     for (int i = 0; i < branch.count(); ++i) {
       double& radius = branch.radii[i];
-      const double mapped = std::clamp(at_same_share(present, wanted, radius), radius / kMostChange, radius * kMostChange);
+      const double same_share = wanted.radius_at(present.share_at(radius));
+      const double mapped = std::clamp(same_share, radius / kMostChange, radius * kMostChange);
       radius = mapped > radius ? std::min(mapped, radius + free_room(state, b, branch.points[i], radius, mapped)) : mapped;
     }
   }
