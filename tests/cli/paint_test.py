@@ -264,6 +264,9 @@ class Paint(CliTest):
             for style in ("ink", "vine", "lightning", "woodcut", "watercolor"):
                 for kind in ("png", "svg"):
                     self.ok("paint", skeleton, "-o", self.path("o." + kind), "--style", style)
+        for style in ("woodcut", "watercolor"):
+            for growth in ("0", "0.05", "0.3", "0.7"):
+                self.ok("paint", self.tree, "-o", self.path("o.svg"), "--style", style, "--growth", growth)
 
 
 if __name__ == "__main__":

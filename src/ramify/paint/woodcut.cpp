@@ -41,10 +41,11 @@ Vec2 in_body(const Stroke& stroke, const std::vector<double>& arcs, const std::v
 }
 
 void cut_into(const Stroke& stroke, Rng rng, const Rgb& paper, std::vector<Shape>& out) {
-  if (stroke.points.size() < 4) return;
+  const auto rim = static_cast<std::size_t>(std::max(0, stroke.rim));
+  if (stroke.points.size() < 4 || rim >= stroke.points.size()) return;  // young: still inside its parent
   const std::vector<double> arcs = arc_lengths(stroke.points);
   const std::vector<Vec2> along = tangents(stroke.points);
-  double arc = arcs[static_cast<std::size_t>(stroke.rim)];
+  double arc = arcs[rim];
   while (arc < arcs.back()) {
     const auto at = static_cast<std::size_t>(std::lower_bound(arcs.begin(), arcs.end(), arc) - arcs.begin());
     const double radius = stroke.radii[std::min(at, arcs.size() - 1)];
