@@ -19,8 +19,8 @@ namespace {
 constexpr double kShareOfGap = 0.45;    // of the space to a neighbour: both may move
 constexpr double kShareOfChild = 0.35;  // of a side branch's length, by which its foot may move
 constexpr double kSlope = 0.3;          // px the room for moving may change by along 1 px of a branch
-constexpr int kSoftRounds = 6;          // rounds in which crossing places move half as far; after them they stay
-constexpr int kLocalRounds = 30;        // then whole branches stay
+constexpr int kSoftRounds = 3;          // rounds in which crossing places move half as far; after them they stay
+constexpr int kLocalRounds = 12;        // then whole branches stay
 
 // The same lines with edges of at most `step` px.
 Skeleton divided(const Skeleton& skeleton, double step) {
@@ -88,7 +88,7 @@ class Restyling {
       bend_[branch.nodes.back()] = Vec2::Zero();
       if (branch.parent == kNone) bend_[branch.nodes.front()] = Vec2::Zero();
     }
-    limit(3.0 * bender.valley());
+    limit(3.0 * bender.valley(), monitor);
   }
 
   Skeleton moved() const {
@@ -130,8 +130,8 @@ class Restyling {
   }
 
   // Bends become smaller where there is little room.
-  void limit(double reach) {
-    std::vector<double> room = gaps(reach);
+  void limit(double reach, const Monitor& monitor) {
+    std::vector<double> room = gaps(reach, monitor);
     for (const Branch& branch : tree_.branches) {
       if (branch.parent_node != kNone)
         room[branch.parent_node] = std::min(room[branch.parent_node], kShareOfChild * branch.length);
@@ -152,7 +152,7 @@ class Restyling {
   }
 
   // Px every node may move towards the nearest edge that does not simply lead to it.
-  std::vector<double> gaps(double reach) const {
+  std::vector<double> gaps(double reach, const Monitor& monitor) const {
     Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
     for (const Node& node : old_.nodes()) low = low.cwiseMin(node.xy()), high = high.cwiseMax(node.xy());
     CapsuleIndex index(low, high, std::max({8.0, reach, (high - low).maxCoeff() / 1024.0}));
@@ -163,6 +163,7 @@ class Restyling {
     }
     std::vector<double> room(arc_.size(), reach);
     for (int i = 0; i < old_.count(); ++i) {
+      if (i % 1024 == 0) monitor.check();
       const int own = tree_.branch_of_node[i];
       const Vec2 p = old_[i].xy();
       const Vec2 box = Vec2::Constant(reach / kShareOfGap);

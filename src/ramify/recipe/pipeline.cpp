@@ -269,9 +269,11 @@ Picture make_picture(const LoadedRequest& loaded, std::uint64_t seed, const Moni
   }
   Picture picture;
   picture.recipe = make_recipe(loaded, seed);
-  const Monitor shaping = monitor.stage(loaded.skeleton ? "restyle" : "grow", 0.0, 0.1);
-  picture.skeleton = loaded.skeleton ? restyle_skeleton(*loaded.skeleton, loaded.style, options.fit.restyle, rng.child("restyle"), shaping)
-                                     : grow_on_plan(loaded, plan, rng.child("grow"), shaping);
+  if (loaded.skeleton) {
+    picture.skeleton = restyle_skeleton(*loaded.skeleton, loaded.style, options.fit.restyle, rng.child("restyle"), monitor.stage("restyle", 0.0, 0.1));
+  } else {
+    picture.skeleton = grow_on_plan(loaded, plan, rng.child("grow"), monitor.stage("grow", 0.0, 0.1));
+  }
   if (picture_wanted) {
     picture.composite = compose_image(exemplar, loaded.scene, plan, picture.skeleton, options.compose, rng.child("compose"),
                                       monitor.stage("compose", 0.1, 0.95));
