@@ -7,7 +7,7 @@ import unittest
 import xml.etree.ElementTree as ET
 
 import numpy
-from PIL import Image
+from PIL import Image, ImageDraw
 from scipy import ndimage
 
 from harness import CliTest
@@ -52,7 +52,7 @@ class Figure(CliTest):
             self.assertLess(below.size[0], beside.size[0])
 
     def test_the_letters_are_those_pillow_draws(self):
-        from PIL import ImageDraw, ImageFont
+        from PIL import ImageFont
         font = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
         self.ok("figure", "--text", "Rag", "--font", font, "--text-size", "120", "-o", self.path("a.json"), "--debug-dir", self.path("d"))
         ours = numpy.asarray(Image.open(self.path("d/region.png"))) > 0
@@ -80,6 +80,61 @@ class Figure(CliTest):
         self.ok("figure", "--text", "so", "--text-size", "60", "-o", self.path("t.svg"))
         self.ok("replay", self.path("t.svg"), "-o", self.path("u.svg"))
         self.assertEqual(self.digest(self.path("t.svg")), self.digest(self.path("u.svg")))
+
+    def test_200_mazes_are_reached_wholly_and_not_left(self):
+        """On one sheet, drawn by Pillow at eight times the size; corridors one pixel wide, rings, several parts."""
+        rng = numpy.random.default_rng(7)
+        side, columns, gap, fine = 56, 20, 4, 8
+        sheet = numpy.zeros((10 * (side + gap), columns * (side + gap)), bool)
+        for number in range(200):
+            maze = numpy.zeros((side, side), bool)
+            y, x = numpy.mgrid[:side, :side]
+            for _ in range(rng.integers(1, 5)):
+                distance = numpy.hypot((x - rng.integers(side)) / rng.uniform(3, 14), (y - rng.integers(side)) / rng.uniform(3, 14))
+                maze |= (distance <= 1) & (distance >= rng.choice([0, 0.6]))
+            for _ in range(rng.integers(2, 8)):
+                (ax, ay), (bx, by) = rng.integers(side, size=(2, 2))
+                maze[ay, min(ax, bx):max(ax, bx) + 1] = True
+                maze[min(ay, by):max(ay, by) + 1, bx] = True
+            top, left = number // columns * (side + gap), number % columns * (side + gap)
+            sheet[top:top + side, left:left + side] = maze
+        parts, count = ndimage.label(sheet)
+        sheet &= numpy.bincount(parts.ravel())[parts] >= 3  # smaller ones are left out, with a note
+        parts, count = ndimage.label(sheet)
+        self.assertGreater(count, 200)
+        path = self.path("mazes.png")
+        Image.fromarray(numpy.where(sheet, 0, 255).astype("uint8")).save(path)
+        away = ndimage.distance_transform_edt(~numpy.kron(sheet, numpy.ones((fine, fine), bool)))
+        for extra in ([], ["--lines", "straight", "--tree", "random"]):
+            self.ok("figure", path, "-o", self.path("m.json"), "--points", "9000", "--debug-dir", self.path("d"), *extra)
+            sites = numpy.loadtxt(self.path("d/sites.csv"), delimiter=",", skiprows=1)
+            parents = sites[:, 2].astype(int)
+            part_of = parts[sites[:, 1].round().astype(int), sites[:, 0].round().astype(int)]
+            self.assertEqual(sorted(part_of[parents < 0]), list(range(1, count + 1)))  # one root in every part
+            self.assertTrue((part_of[parents >= 0] == part_of[parents[parents >= 0]]).all())
+            reached, before = parents < 0, 0
+            while reached.sum() > before:
+                before = reached.sum()
+                reached |= (parents >= 0) & reached[parents]
+            self.assertTrue(reached.all())
+            drawn = self.drawn(json.loads(pathlib.Path(self.path("m.json")).read_text())["nodes"], sheet.shape, fine)
+            self.assertLessEqual(away[drawn].max(), fine + 0.5)  # 1 px
+            self.assertGreater(drawn.sum(), 0.1 * fine * fine * sheet.sum())
+
+    @staticmethod
+    def drawn(nodes, shape, fine):
+        """A skeleton as discs and the trapezia between them."""
+        page = Image.new("1", (shape[1] * fine, shape[0] * fine))
+        pen = ImageDraw.Draw(page)
+        places = [((x + 0.5) * fine, (y + 0.5) * fine, r * fine) for x, y, _, r, _ in nodes]
+        for (x, y, r), node in zip(places, nodes):
+            pen.ellipse((x - r, y - r, x + r, y + r), fill=1)
+            px, py, pr = places[node[4]] if node[4] >= 0 else (x, y, r)
+            length = numpy.hypot(x - px, y - py)
+            if length > 0:
+                nx, ny = (y - py) / length, (px - x) / length
+                pen.polygon([(x + nx * r, y + ny * r), (px + nx * pr, py + ny * pr), (px - nx * pr, py - ny * pr), (x - nx * r, y - ny * r)], fill=1)
+        return numpy.asarray(page)
 
     def test_intermediates(self):
         path, _ = self.shape()
