@@ -20,6 +20,7 @@ struct WholeTicks {
   const std::uint16_t* weight;
   std::uint32_t scale;
   static constexpr bool kPerEdge = false, kHashed = false;
+  const void* place(std::uint32_t node) const { return weight + node; }
   std::uint32_t half(std::uint32_t node) const { return weight[node] * scale; }
   std::uint32_t half_of(double w) const { return static_cast<std::uint32_t>(w) * scale; }
 };
@@ -27,6 +28,7 @@ struct RealTicks {
   const float* weight;
   float scale;
   static constexpr bool kPerEdge = false, kHashed = false;
+  const void* place(std::uint32_t node) const { return weight + node; }
   std::uint32_t half(std::uint32_t node) const { return rounded(weight[node]); }
   std::uint32_t half_of(double w) const { return rounded(static_cast<float>(w)); }
   std::uint32_t rounded(float w) const {
@@ -54,7 +56,7 @@ class LatticeView {
   // `links` tell which nodes are forbidden, where corners may not be cut.
   LatticeView(const Lattice& lattice, const Ticks& ticks, const Link* links)
       : ticks_(ticks), links_(lattice.cut_corners ? nullptr : links), width_(lattice.width), height_(lattice.height),
-        depth_(lattice.depth), row_share_(~0ull / static_cast<std::uint64_t>(lattice.width) + 1), from_share_(lattice.edge_cost == EdgeCost::Mean ? 1 : 0) {
+        depth_(lattice.depth), last_(static_cast<std::uint32_t>(lattice.count()) - 1), row_share_(~0ull / static_cast<std::uint64_t>(lattice.width) + 1), from_share_(lattice.edge_cost == EdgeCost::Mean ? 1 : 0), lead_share_(from_share_) {
     const auto steps = lattice_steps(lattice.connectivity);
     for (int k = 0; k < kSteps; ++k) {
       steps_[k] = steps[k];
@@ -64,6 +66,7 @@ class LatticeView {
       const double full = lattice.diagonal == DiagonalLength::None ? factor : factor * length;
       plain_[k] = static_cast<std::uint64_t>(std::llround(factor * kOne));
       full_[k] = static_cast<std::uint64_t>(std::llround(full * kOne));
+      if (factor < 1.0) lead_share_ = 0;
     }
   }
 
@@ -77,8 +80,9 @@ class LatticeView {
     return out;
   }
 
+  // Inlined by force: the closures' variables then stay in registers.
   template <class Test, class Take>
-  void visit(std::uint32_t node, const Test& test, const Take& take) const {
+  [[gnu::always_inline]] inline void visit(std::uint32_t node, const Test& test, const Take& take) const {
     const std::uint32_t own = Ticks::kPerEdge ? 0 : from_share_ * ticks_.half(node);
     const std::uint32_t row = row_of(node), x = node - row * width_;
     std::uint32_t chosen = 0;
@@ -102,7 +106,22 @@ class LatticeView {
       take(to, static_cast<Link>(k ^ 1), edge(node, to, own, k));
     }
   }
+  // Has what visit will read brought near: a node's own row and those beside it. Inlined by force: GCC takes functions that
+  // only prefetch for functions without effect and drops their calls.
+  template <class Labels>
+  [[gnu::always_inline]] inline void prefetch(const Labels& labels, std::uint32_t node) const {
+    prefetch_at(labels, node);
+    prefetch_at(labels, node - std::min<std::uint32_t>(node, width_));
+    prefetch_at(labels, std::min<std::uint32_t>(node + width_, last_));
+    if constexpr (!kPlane) {
+      const std::uint32_t layer = static_cast<std::uint32_t>(width_) * height_;
+      prefetch_at(labels, node - std::min(node, layer));
+      prefetch_at(labels, std::min(node + layer, last_));
+    }
+  }
   std::uint32_t parent(std::uint32_t node, Link link) const { return node + offset_[link]; }
+  // Half the cost of its edges along axes, where no edge is cheaper than its nodes' mean.
+  std::uint32_t lead(std::uint32_t node) const { return Ticks::kPerEdge ? 0 : lead_share_ * ticks_.half(node); }
   // Orders all edges: by cost without length, then those along axes before diagonals, then by a hash.
   std::uint64_t unique_key(const Edge& e, std::uint32_t a, std::uint32_t b, Link link) const {
     const std::uint64_t diagonal = link >= kFirstDiagonal ? 1u << 31 : 0u;
@@ -145,6 +164,12 @@ class LatticeView {
     return {scaled(ticks, full_[k]), scaled(ticks, plain_[k])};
   }
 
+  template <class Labels>
+  [[gnu::always_inline]] inline void prefetch_at(const Labels& labels, std::uint32_t node) const {
+    __builtin_prefetch(labels.place(node));
+    if constexpr (!Ticks::kHashed) __builtin_prefetch(ticks_.place(node));
+  }
+
   // Whether a node of the box that a diagonal step spans is forbidden.
   bool cuts_corner(std::uint32_t node, int k) const {
     const std::int32_t along[3] = {steps_[k].dx, steps_[k].dy * width_, steps_[k].dz * width_ * height_};
@@ -158,8 +183,9 @@ class LatticeView {
   Ticks ticks_;
   const Link* links_;
   int width_, height_, depth_;
+  std::uint32_t last_;       // node
   std::uint64_t row_share_;  // 2^64 / width: a node times this, shifted down, is its row, faster than by a division
-  std::uint32_t from_share_;
+  std::uint32_t from_share_, lead_share_;  // how often a node's half ticks count in its outgoing edges; in its lead
   std::array<LatticeStep, kSteps> steps_;
   std::array<std::int32_t, kSteps> offset_;
   std::array<std::uint64_t, kSteps> full_, plain_;

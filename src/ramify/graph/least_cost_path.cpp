@@ -56,6 +56,8 @@ class BoxView {
     }
   }
   std::uint32_t parent(std::uint32_t node, Link k) const { return node - kDx[k] - kDy[k] * width_; }
+  std::uint32_t lead(std::uint32_t) const { return 0; }
+  void prefetch(const SumLabels&, std::uint32_t) const {}
 
  private:
   const LatticeCosts& costs_;
@@ -70,7 +72,7 @@ struct StopAtAnyTarget {
   void settled(std::uint32_t node) {
     if (wanted.pixels()[node]) found = std::min(found, node);
   }
-  bool done(const SumLabels&, std::uint64_t) const { return found != kFar; }
+  bool done(const BoxView&, const SumLabels&, std::uint64_t) const { return found != kFar; }
 };
 
 CheapestPath walk_back(const Image<std::uint8_t>& came, const PixelBox& box, Pixel at, Size size) {

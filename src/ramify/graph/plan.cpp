@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ramify/graph/big_array.h"
 #include "ramify/graph/lattice_search.h"
 #include "ramify/graph/point_view.h"
 
@@ -60,11 +61,11 @@ Plan blank_plan(const PlanOptions& options, std::size_t count) {
   plan.max_cost = options.max_cost;
   const Metric metric = options.metric.metric;
   if (metric == Metric::Power) {
-    plan.power_sum.assign(count, kInfinity);
+    assign_big(plan.power_sum, count, kInfinity);
   } else if (metric == Metric::Sum) {
-    plan.sum.assign(count, kFar);
+    assign_big(plan.sum, count, kFar);
   } else {
-    plan.pair.assign(count, {kFar, kFar});
+    assign_big(plan.pair, count, {kFar, kFar});
   }
   return plan;
 }
@@ -151,7 +152,7 @@ Plan plan_paths(const Lattice& lattice, std::span<const int> sources, const Plan
     Plan plan = blank_plan(options, static_cast<std::size_t>(lattice.count()));
     plan.ticks_per_unit = ticks;
     plan.power_unit = scale.dearest;
-    plan.step.assign(static_cast<std::size_t>(lattice.count()), kUnreached);
+    assign_big(plan.step, static_cast<std::size_t>(lattice.count()), kUnreached);
     forbid_nodes(plan, lattice);
     const SearchEnd end = search_on(lattice, plan, {sources, options.endpoints, options.max_cost, {}}, weights, monitor);
     plan.stopped_early = end == SearchEnd::Stopped;

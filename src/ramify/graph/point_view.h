@@ -29,6 +29,9 @@ class PointView {
     return ticks > 1 ? ticks : 1;
   }
   std::uint32_t parent(std::uint32_t, Link link) const { return static_cast<std::uint32_t>(link); }
+  std::uint32_t lead(std::uint32_t) const { return 0; }
+  template <class Labels>
+  void prefetch(const Labels&, std::uint32_t) const {}
   std::uint32_t start_ticks(std::uint32_t) const { return 0; }
   std::uint64_t unique_key(const Edge& e, std::uint32_t a, std::uint32_t b, Link) const {
     return (static_cast<std::uint64_t>(e.plain) << 32) | edge_hash(0, a, b);

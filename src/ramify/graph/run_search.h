@@ -30,22 +30,18 @@ SearchEnd run_from(const View& view, Labels labels, typename View::Link* links, 
     if (links[node] == View::kSourceLink && !(labels.key_of(label) < labels.key(node))) continue;
     labels.set(node, label);
     links[node] = View::kSourceLink;
-    queue.push(labels.key(node), node);
+    queue.push(labels.key(node) + Labels::lead(view, node), node);
   }
   StopAtEndpoints stop{task.endpoints};
   const SearchEnd end = search(view, labels, links, queue, stop, limit, monitor);
   if (end == SearchEnd::Stopped) {  // what was not settled is not final
-    queue.for_each([&](const auto& item) {
-      if (labels.key(item.node) != item.key || links[item.node] == View::kSourceLink) return;
-      labels.clear(item.node);
-      links[item.node] = View::kUnreachedLink;
+    queue.for_each_node([&](std::uint32_t node) {
+      if (links[node] == View::kSourceLink || StopAtEndpoints::is_settled(view, labels, node, queue.horizon())) return;
+      labels.clear(node);
+      links[node] = View::kUnreachedLink;
     });
   }
   return end;
-}
-
-inline std::uint32_t tick_limit(double ticks) {
-  return ticks < static_cast<double>(kFar) ? static_cast<std::uint32_t>(ticks) : kFar - 1;
 }
 
 template <class View>
@@ -67,6 +63,9 @@ SearchEnd run_pairs(const View& view, Plan& plan, typename View::Link* links, co
   RadixQueue<std::uint64_t> queue(std::bit_width(task.bounds.cheapest) - 1);  // the sum is what a key ends with
   if (plan.metric.metric == Metric::Partial) {
     const std::uint64_t limit = PartialLabels::key_of({kFar, tick_limit(ticks)});
+    if (BucketQueue::size_for(task.bounds.cheapest, task.bounds.dearest) <= kMostBuckets) {
+      return run_from(view, labels, links, PairQueue(task.bounds.cheapest, task.bounds.dearest), task, limit, start, monitor);
+    }
     return run_from(view, labels, links, std::move(queue), task, limit, start, monitor);
   }
   const double sum_ticks = ticks / plan.metric.sum_share;
