@@ -10,53 +10,11 @@
 #include "ramify/core/parallel.h"
 #include "ramify/core/random.h"
 #include "ramify/graph/path_forest.h"
+#include "support/random_lattice.h"
 
 using namespace ramify;
 
 namespace {
-
-RealWeights random_weights(int count, Rng& rng) {
-  RealWeights out(static_cast<std::size_t>(count));
-  for (float& w : out) w = static_cast<float>(rng.uniform(0.5, 12.0));
-  return out;
-}
-
-// A lattice with weights of any kind, now and then with forbidden nodes and dear directions.
-Lattice random_lattice(Rng& rng, Connectivity connectivity) {
-  Lattice lattice;
-  lattice.connectivity = connectivity;
-  const bool plane = connectivity == Connectivity::Plane4 || connectivity == Connectivity::Plane8;
-  lattice.width = 5 + rng.below(plane ? 30 : 8);
-  lattice.height = 5 + rng.below(plane ? 30 : 8);
-  lattice.depth = plane ? 1 : 3 + rng.below(6);
-  lattice.edge_cost = rng.below(2) ? EdgeCost::Mean : EdgeCost::Target;
-  lattice.diagonal = rng.below(2) ? DiagonalLength::Geometric : DiagonalLength::None;
-  switch (rng.below(4)) {
-    case 0: lattice.weights = random_weights(lattice.count(), rng); break;
-    case 1: {
-      WholeWeights w(static_cast<std::size_t>(lattice.count()));
-      for (auto& v : w) v = static_cast<std::uint16_t>(1 + rng.below(4));  // many ties
-      lattice.weights = w;
-      break;
-    }
-    default: lattice.weights = HashedWeights{rng.next(), 1.0, 10.0, rng.below(2) == 0};
-  }
-  if (rng.below(2)) {
-    lattice.allowed.assign(static_cast<std::size_t>(lattice.count()), 1);
-    for (auto& a : lattice.allowed) a = rng.uniform() < 0.85;
-  }
-  if (rng.below(4) == 0) {
-    lattice.direction_factor.assign(lattice_steps(connectivity).size(), 1.0);
-    lattice.direction_factor[3] = 4.0;
-  }
-  return lattice;
-}
-
-int random_node(const Lattice& lattice, Rng& rng) {
-  int node = rng.below(lattice.count());
-  while (!is_allowed(lattice, node)) node = rng.below(lattice.count());
-  return node;
-}
 
 constexpr Connectivity kAll[] = {Connectivity::Plane4, Connectivity::Plane8, Connectivity::Volume6, Connectivity::Volume26};
 
@@ -139,6 +97,43 @@ TEST_CASE("more sources touch only what improves and give what planning anew giv
       CHECK(plan.step == anew.step);
     }
   }
+}
+
+TEST_CASE("more sources within a bound give every cost below it") {
+  Rng rng(13);
+  int within = 0, beyond = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Lattice lattice = random_lattice(rng, kAll[trial % 4]);
+    PlanOptions options;
+    options.metric.metric = static_cast<Metric>(trial % 5);
+    const int first = random_node(lattice, rng);
+    std::vector<int> sources{first};
+    const bool even = lattice.edge_cost == EdgeCost::Mean && lattice.direction_factor.empty();  // edges cost the same both ways
+    const double across = path_cost(plan_paths(lattice, sources, options), random_node(lattice, rng));
+    if (!std::isfinite(across)) continue;
+    double bound = options.max_cost = 0.9 * across;
+    Plan plan = plan_paths(lattice, sources, options);
+    for (int round = 0; round < 3; ++round) {
+      const std::vector<int> more{random_node(lattice, rng), random_node(lattice, rng)};
+      sources.insert(sources.end(), more.begin(), more.end());
+      bound *= 0.7;
+      plan = reseeded(std::move(plan), lattice, more, bound);
+      const Plan whole = plan_paths(lattice, sources, {options.metric, std::numeric_limits<double>::infinity(), {}});
+      for (int node = 0; node < lattice.count(); ++node) {
+        const double cost = path_cost(whole, node);
+        if (cost < bound * (1.0 - 1e-4)) {
+          CHECK(path_cost(plan, node) == Approx(cost).epsilon(1e-4));
+          CHECK(path_parent(plan, lattice, node) == path_parent(whole, lattice, node));
+          ++within;
+        } else if (cost > bound * (1.0 + 1e-4) && plan.step[node] != kSource && (options.metric.metric != Metric::Full || even)) {
+          CHECK(path_cost(plan, node) > bound * (1.0 - 1e-4));
+          ++beyond;
+        }
+      }
+    }
+  }
+  CHECK(within > 5000);
+  CHECK(beyond > 5000);
 }
 
 TEST_CASE("truncation and early stop keep what the whole plan says") {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ramify/graph/run_search.h"
+#include "ramify/graph/second_nearest.h"
 
 namespace ramify {
 
@@ -16,5 +17,9 @@ double dearest_edge(const Lattice& lattice, const WeightRange& weights);
 // Searches on from what the plan holds; task.bounds are set here. One definition for each number of steps.
 template <int kSteps>
 SearchEnd search_lattice(const Lattice& lattice, Plan& plan, SearchTask task, const WeightRange& weights, const Monitor& monitor);
+
+// Fills in the second generators where `nearest` holds every node's own.
+template <int kSteps>
+SearchEnd search_lattice_again(const Lattice& lattice, const Plan& plan, const WeightRange& weights, TwoNearest& nearest, const Monitor& monitor);
 
 }  // namespace ramify

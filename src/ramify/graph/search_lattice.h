@@ -5,30 +5,45 @@
 
 #include "ramify/graph/lattice_search.h"
 #include "ramify/graph/lattice_view.h"
+#include "ramify/graph/run_second.h"
 
 namespace ramify {
 
-template <int kSteps>
-SearchEnd search_lattice(const Lattice& lattice, Plan& plan, SearchTask task, const WeightRange& weights, const Monitor& monitor) {
+// Calls f(view, least, most) with the view of the lattice's weights in the plan's ticks, and the range of their halves.
+template <int kSteps, class F>
+SearchEnd with_view(const Lattice& lattice, const Plan& plan, const WeightRange& weights, const F& f) {
   const double half_ticks = plan.ticks_per_unit / 2.0;
-  const auto run = [&](const auto& ticks, std::uint32_t least_half, std::uint32_t most_half) {
-    const LatticeView<kSteps, std::decay_t<decltype(ticks)>> view(lattice, ticks, plan.step.data());
-    task.bounds = view.bounds(least_half, most_half);
-    return run_search(view, plan, plan.step.data(), task, monitor);
+  const auto call = [&](const auto& ticks, std::uint32_t least_half, std::uint32_t most_half) {
+    return f(LatticeView<kSteps, std::decay_t<decltype(ticks)>>(lattice, ticks, plan.step.data()), least_half, most_half);
   };
   if (const auto* whole = std::get_if<WholeWeights>(&lattice.weights)) {
     const WholeTicks ticks{whole->data(), static_cast<std::uint32_t>(half_ticks)};
-    return run(ticks, ticks.half_of(weights.least), ticks.half_of(weights.most));
+    return call(ticks, ticks.half_of(weights.least), ticks.half_of(weights.most));
   }
   if (const auto* real = std::get_if<RealWeights>(&lattice.weights)) {
     const RealTicks ticks{real->data(), static_cast<float>(half_ticks)};
-    return run(ticks, ticks.half_of(weights.least), ticks.half_of(weights.most));
+    return call(ticks, ticks.half_of(weights.least), ticks.half_of(weights.most));
   }
   const HashedWeights& hashed = std::get<HashedWeights>(lattice.weights);
   const auto base = static_cast<std::uint32_t>(std::max(1.0, std::round(hashed.base * half_ticks)));
   const auto spread = static_cast<std::uint32_t>(hashed.spread * half_ticks);
-  if (hashed.per_edge) return run(HashedTicks<true>{hashed.seed, base, spread}, base, base + spread);
-  return run(HashedTicks<false>{hashed.seed, base, spread}, base, base + spread);
+  if (hashed.per_edge) return call(HashedTicks<true>{hashed.seed, base, spread}, base, base + spread);
+  return call(HashedTicks<false>{hashed.seed, base, spread}, base, base + spread);
+}
+
+template <int kSteps>
+SearchEnd search_lattice(const Lattice& lattice, Plan& plan, SearchTask task, const WeightRange& weights, const Monitor& monitor) {
+  return with_view<kSteps>(lattice, plan, weights, [&](const auto& view, std::uint32_t least_half, std::uint32_t most_half) {
+    task.bounds = view.bounds(least_half, most_half);
+    return run_search(view, plan, plan.step.data(), task, monitor);
+  });
+}
+
+template <int kSteps>
+SearchEnd search_lattice_again(const Lattice& lattice, const Plan& plan, const WeightRange& weights, TwoNearest& nearest, const Monitor& monitor) {
+  return with_view<kSteps>(lattice, plan, weights, [&](const auto& view, std::uint32_t least_half, std::uint32_t most_half) {
+    return run_second(view, plan, plan.step.data(), view.bounds(least_half, most_half).cheapest, nearest, monitor);
+  });
 }
 
 }  // namespace ramify
