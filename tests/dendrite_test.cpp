@@ -138,6 +138,39 @@ TEST_CASE("dendrite: refined paths stay within the nodes of the coarse ones") {
   }
 }
 
+TEST_CASE("dendrite: refined paths never cross, planned together or each by itself") {
+  int meetings = 0;
+  for (int seed = 0; seed < 40; ++seed) {
+    DendriteTarget target = random_target(40, static_cast<std::uint64_t>(seed));
+    std::get<HashedWeights>(target.lattice.weights).per_edge = seed % 2 == 0;
+    DendriteOptions options;
+    options.metric.metric = seed % 4 < 2 ? Metric::Sum : Metric::Partial;
+    options.endpoints = 25;
+    options.refine = 3;
+    options.refine_each = seed % 8 != 7;
+    const Dendrite grown = grow_dendrite(target, options, Rng(static_cast<std::uint64_t>(seed)), {});
+    const PathForest& forest = grown.structure.forest;
+    std::set<std::pair<int, int>> middles;  // in half steps: edges of a lattice meet between nodes where these coincide
+    int edges = 0;
+    for (std::size_t i = 0; i < forest.nodes.size(); ++i) {
+      if (forest.parents[i] == kNone) continue;
+      const int a = forest.nodes[i], b = forest.nodes[static_cast<std::size_t>(forest.parents[i])], width = grown.lattice.width;
+      CHECK(std::abs(a % width - b % width) <= 1);
+      CHECK(std::abs(a / width - b / width) <= 1);
+      middles.insert({a % width + b % width, a / width + b / width});
+      ++edges;
+    }
+    CHECK(static_cast<int>(middles.size()) == edges);
+    CHECK(find_crossings(dendrite_skeleton(grown, 1.0, {})).empty());
+    // Each by itself, paths part that the coarse dendrite shares: otherwise nothing could cross.
+    std::vector<int> children(forest.nodes.size(), 0);
+    for (const int parent : forest.parents) {
+      if (parent != kNone) meetings += ++children[static_cast<std::size_t>(parent)] > 1;
+    }
+  }
+  CHECK(meetings > 40 * 15);
+}
+
 TEST_CASE("dendrite: refining within a mask loses no endpoint") {
   DendriteTarget target = random_target(60, 11);
   target.lattice.cut_corners = false;

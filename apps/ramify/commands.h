@@ -28,6 +28,7 @@ void add_figure(CLI::App& root, Chosen& chosen);
 // commands_plan.cpp
 void add_dendrite(CLI::App& root, Chosen& chosen);
 void add_stylize(CLI::App& root, Chosen& chosen);
+void add_moss(CLI::App& root, Chosen& chosen);
 
 // commands_annotate.cpp
 void add_trace(CLI::App& root, Chosen& chosen);

@@ -10,6 +10,7 @@
 #include "ramify/core/version.h"
 #include "ramify/image/image_io.h"
 #include "ramify/recipe/figure.h"
+#include "ramify/recipe/moss.h"
 #include "ramify/recipe/outputs.h"
 #include "ramify/recipe/painting.h"
 #include "ramify/recipe/pipeline.h"
@@ -235,6 +236,13 @@ void add_replay(CLI::App& root, Chosen& chosen) {
       }
       std::vector<std::string> folders{folder_of(a->input)};
       folders.insert(folders.end(), a->inputs.begin(), a->inputs.end());
+      if (recipe.verb == "moss") {
+        MossRequest request = moss_from_recipe(recipe, folders);
+        request.limits = shared.load_limits();
+        check_outputs({a->output}, {request.picture});
+        paint_moss(request, recipe.seed, a->output, monitor);
+        return Outcome{{a->output}, {}, ""};
+      }
       if (recipe.verb == "figure") return replay_figure(recipe, folders, a->output, shared, monitor);
       if (recipe.verb == "paint") return replay_painting(recipe, folders, a->output, shared, monitor);
       check_extension("output", a->output, kPictureExtensions);

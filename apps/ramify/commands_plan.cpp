@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verbs that plan paths: dendrite, stylize.
+// The verbs that plan paths: dendrite, stylize, moss.
 #include <algorithm>
 #include <memory>
 
@@ -7,6 +7,7 @@
 #include "outputs.h"
 #include "presets.h"
 #include "ramify/image/image_io.h"
+#include "ramify/recipe/moss.h"
 #include "ramify/recipe/planning.h"
 #include "ramify/recipe/planning_pictures.h"
 #include "ramify/skeleton/skeleton_io.h"
@@ -15,6 +16,7 @@ namespace ramify::app {
 namespace {
 
 const std::vector<std::string> kSkeletons{".json", ".swc", ".svg", ".geojson"};
+const std::vector<std::string> kPaintings{".svg", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".webp"};
 
 const std::vector<Preset>& dendrite_presets() {
   static const std::vector<Preset> presets{
@@ -58,16 +60,38 @@ Outcome grow_paths(DendriteArguments& a, const SharedOptions& shared, const Moni
   a.request.limits = shared.load_limits();
   check_outputs({a.output}, input_files(a.request));
   if (kept(shared, a.output)) return {{}, {a.output}, ""};
+  check_dendrite(a.request);
+  if (a.request.aggregate.walkers > 0) {
+    save_skeleton(grow_walkers(a.request, shared.seed, monitor), a.output);
+    return {{a.output}, {}, ""};
+  }
   const DendriteTarget target = load_dendrite(a.request, shared.seed, monitor.stage("load", 0.0, 0.1));
-  const Dendrite dendrite = grow_dendrite(target, a.request.grow, Rng(shared.seed).child("dendrite"), monitor.stage("grow", 0.1, 0.9));
-  if (!shared.debug_dir.empty()) {
+  if (!shared.debug_dir.empty()) {  // first, so that it shows what blocks the way when nothing can grow
     make_folder(shared.debug_dir);
     save_lattice_fields(shared.debug_dir, target.lattice, target.generators, a.request.grow.metric, monitor);
+  }
+  const Dendrite dendrite = grow_dendrite(target, a.request.grow, Rng(shared.seed).child("dendrite"), monitor.stage("grow", 0.1, 0.8));
+  if (!shared.debug_dir.empty()) {
     std::vector<int> nodes;
     for (const int end : dendrite.structure.endpoints) nodes.push_back(dendrite.structure.forest.nodes[static_cast<std::size_t>(end)]);
     save_endpoints(shared.debug_dir, dendrite.lattice, nodes, a.request.lattice.pitch / dendrite.refine);
   }
-  save_skeleton(dendrite_skeleton(dendrite, a.request.lattice.pitch, a.request.thickness), a.output);
+  save_skeleton(dendrite_lines(a.request, target, dendrite, monitor.stage("lines", 0.8, 1.0)), a.output);
+  return {{a.output}, {}, ""};
+}
+
+struct MossArguments {
+  MossRequest request;
+  FieldFlags flags;
+  std::string output;
+};
+
+Outcome grow_over(MossArguments& a, const SharedOptions& shared, const Monitor& monitor) {
+  check_extension("output", a.output, kPaintings);
+  a.request.limits = shared.load_limits();
+  check_outputs({a.output}, {a.request.picture});
+  if (kept(shared, a.output)) return {{}, {a.output}, ""};
+  paint_moss(a.request, shared.seed, a.output, monitor);
   return {{a.output}, {}, ""};
 }
 
@@ -125,7 +149,7 @@ void finish(CLI::App& app, const std::shared_ptr<Arguments>& a, Chosen& chosen, 
 
 void add_dendrite(CLI::App& root, Chosen& chosen) {
   const auto a = std::make_shared<DendriteArguments>();
-  CLI::App* app = root.add_subcommand("dendrite", "Grow a dendrite by least-cost paths: frost, lightning, moss, letters");
+  CLI::App* app = root.add_subcommand("dendrite", "Grow a dendrite by least-cost paths: frost, lightning, letters, rocks");
   app->add_option("--mask", a->request.mask, "Picture: paths run where it is white")->type_name("IMAGE");
   app->add_option("--node-weights", a->request.node_weights, "Float picture with a weight for every node; not positive = forbidden")->type_name("TIFF");
   app->add_option("--roots", a->request.roots, "Where paths start: \"x,y x,y …\" in px; several compete")->type_name("POINTS");
@@ -135,7 +159,21 @@ void add_dendrite(CLI::App& root, Chosen& chosen) {
   app->footer("Examples:\n  ramify dendrite --preset fractal --seed 3 -o frost.json\n"
               "  ramify dendrite --preset lightning --size 900x1200 --pitch 3 --refine 3 -o bolt.json\n"
               "  ramify dendrite --mask letters.png --count-endpoints 400 -o letters.json\n"
+              "  ramify dendrite --text Hello --count-endpoints 600 -o hello.json\n"
+              "  ramify dendrite --preset fractal --lines distance -o contours.svg\n"
               "  ramify dendrite --roots \"150,250 370,250\" --count-endpoints 300 -o rivals.svg");
+}
+
+void add_moss(CLI::App& root, Chosen& chosen) {
+  const auto a = std::make_shared<MossArguments>();
+  CLI::App* app = root.add_subcommand("moss", "Let moss grow over a picture: hairs in its colours, in each other's shadow");
+  app->add_option("picture", a->request.picture, "Picture (.png .jpg .tif .exr .webp)")->required();
+  app->add_option("-o,--output", a->output, "Drawing or picture to write (.svg .png .jpg .tif .exr .webp)")->required()->type_name("FILE");
+  a->flags.add(*app, describe(a->request.options), "Moss");
+  add_shared(*app, chosen.shared);
+  app->footer("Examples:\n  ramify moss peppers.png -o mossy.png\n"
+              "  ramify moss photo.jpg --height 30 --hairs 0.6 --scale 2 -o fur.png");
+  app->callback([&chosen, a] { chosen.work = [&chosen, a](const Monitor& m) { return grow_over(*a, chosen.shared, m); }; });
 }
 
 void add_stylize(CLI::App& root, Chosen& chosen) {

@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   root.require_subcommand(1);
   root.get_formatter()->column_width(34);
   for (const auto add : {add_synth, add_grow, add_render, add_trace, add_rectify, add_complete, add_exemplar, add_dendrite,
-                         add_stylize, add_figure, add_paint, add_compare, add_convert, add_replay, add_info}) {
+                         add_stylize, add_moss, add_figure, add_paint, add_compare, add_convert, add_replay, add_info}) {
     add(root, chosen);
   }
   root.footer("A first picture:\n  ramify synth builtin:lightning --seed 7 -o bolt.png\n"

@@ -81,6 +81,85 @@ class Plan(CliTest):
             self.assertTrue(os.path.exists(self.path(preset + ".swc")))
         self.fails(2, "did you mean fractal?", "dendrite", "--preset", "fractl", "-o", "a.json")
 
+    def test_letters_are_filled_one_by_one(self):
+        out = self.path("hi.json")
+        self.ok("dendrite", "--text", "Hi\u00df", "--text-size", 120, "--count-endpoints", 200, "--refine", 1, "-o", out)
+        roots = [n for n in nodes(out) if n[4] in (-1, None)]
+        self.assertEqual(len(roots), 4)  # H, the stem and the dot of i, sharp s
+        self.fails(2, "--mask", "dendrite", "--text", "a", "--mask", self.photo, "-o", "a.json")
+
+    def test_lines_of_distance_and_cells(self):
+        rng = numpy.random.default_rng(6)
+        weights = rng.uniform(0.5, 3.0, (50, 70))
+        path = tiff(self.path("w.tiff"), weights)
+        roots = [(20, 25), (55, 12), (48, 40)]
+        text = " ".join(f"{x},{y}" for x, y in roots)
+        alone = [MCP_Geometric(weights, fully_connected=True).find_costs([(y, x)])[0] for x, y in roots]
+        self.ok("dendrite", "--node-weights", path, "--roots", text, "--lines", "cells", "-o", self.path("cells.json"))
+        cells = json.loads(pathlib.Path(self.path("cells.json")).read_text())
+        own = numpy.argmin(alone, axis=0)
+        away = 0
+        for (x, y, *_), tag in zip(cells["nodes"], cells["tags"]):
+            near = [(int(round(x)) + i, int(round(y)) + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+            labels = {int(own[j, i]) for i, j in near if 0 <= i < 70 and 0 <= j < 50}
+            inside = 1 <= x <= 68 and 1 <= y <= 48
+            away += tag - 1 not in labels or (inside and len(labels) < 2)
+        self.assertEqual(away, 0)  # every outline lies where its cell ends
+        self.assertEqual(set(cells["tags"]), {1, 2, 3})
+        dots = self.path("ends.csv", "20,25\n")
+        self.ok("dendrite", "--node-weights", path, "--roots", "20,25", "--endpoints", dots, "--lines", "distance", "--line-count", 4, "-o", self.path("far.json"))
+        far = json.loads(pathlib.Path(self.path("far.json")).read_text())
+        step = alone[0].max() / 5
+        for (x, y, *_), tag in zip(far["nodes"], far["tags"]):
+            low = alone[0][int(numpy.floor(y)):int(numpy.ceil(y)) + 1, int(numpy.floor(x)):int(numpy.ceil(x)) + 1]
+            self.assertLessEqual(low.min(), tag * step * (1 + 1e-4))
+            self.assertGreaterEqual(low.max(), tag * step * (1 - 1e-4))
+        self.ok("dendrite", "--node-weights", path, "--lines", "distance", "-o", self.path("far.svg"))
+        self.ok("dendrite", "--node-weights", path, "--lines", "distance", "-o", self.path("far.geojson"))
+        self.fails(2, "--refine", "dendrite", "--lines", "distance", "--refine", 2, "-o", "a.json")
+        self.fails(3, "several", "dendrite", "--size", "40x40", "--lines", "cells", "-o", "a.json")
+
+    def test_walkers(self):
+        self.ok("dendrite", "--walkers", 800, "--size", "101x101", "-o", self.path("w.json"))
+        places = {(n[0], n[1]) for n in nodes(self.path("w.json"))}
+        self.assertGreater(len(places), 500)
+        self.assertTrue(all(any((x + i, y + j) in places for i, j in ((1, 0), (-1, 0), (0, 1), (0, -1))) for x, y in places))
+        self.fails(2, "--walkers", "dendrite", "--walkers", 10, "--roots", "3,3", "-o", "a.json")
+        self.fails(2, "--lines", "dendrite", "--walkers", 10, "--lines", "cells", "-o", "a.json")
+
+    def test_moss_has_the_pictures_colours_and_replays(self):
+        photo = self.path("p.png", png(96, 64, lambda x, y: (230, 30, 20) if x < 48 else (20, 60, 220)))
+        out = self.path("moss.png")
+        self.ok("moss", photo, "--height", 10, "--background", "#000000", "--threads", 1, "-o", out)
+        found = numpy.asarray(Image.open(out).convert("RGB")).astype(int)
+        left, right = found[20:60, 4:40].reshape(-1, 3), found[20:60, 56:92].reshape(-1, 3)
+        self.assertTrue((left[:, 0] >= left[:, 2]).mean() > 0.99)
+        self.assertTrue((right[:, 2] >= right[:, 0]).mean() > 0.99)
+        self.assertGreater(left[:, 0].max(), 190)
+        self.ok("moss", photo, "--height", 10, "--background", "#000000", "--threads", 2, "-o", self.path("two.png"))
+        self.assertEqual(self.digest(out), self.digest(self.path("two.png")))
+        self.ok("replay", out, "-o", self.path("again.png"))
+        self.assertEqual(self.digest(out), self.digest(self.path("again.png")))
+        self.ok("moss", photo, "--rows", 16, "--hairs", 0.05, "--background", "none", "-o", self.path("moss.svg"))
+        self.fails(2, "transparency", "moss", photo, "--background", "none", "-o", "a.jpg")
+        self.fails(3, "nowhere.png", "moss", "nowhere.png", "-o", "a.png")
+        self.fails(2, "--height", "moss", photo, "--height", 0, "-o", "a.png")
+
+    def test_blocked_start_and_no_way(self):
+        def wall(x, y):
+            return (0, 0, 0) if x == 30 else (255, 255, 255)
+        mask = self.path("wall.png", png(60, 40, wall))
+        ends = self.path("ends.csv", "50,20\n")
+        out = ("-o", "a.json")
+        self.fails(2, "no path may run", "dendrite", "--mask", mask, "--roots", "30,20", *out)
+        self.fails(3, "none can be reached", "dendrite", "--mask", mask, "--roots", "10,20", "--endpoints", ends, "--debug-dir", self.path("debug"), *out)
+        reach = numpy.asarray(Image.open(self.path("debug/cost.tiff")))  # the picture of what is blocked
+        self.assertTrue((reach[:, 30:] == -1).all() and (reach[:, :30] >= 0).all())
+        nothing = tiff(self.path("nothing.tiff"), numpy.zeros((20, 20)))
+        self.fails(3, "no node", "dendrite", "--node-weights", nothing, *out)
+        bad = tiff(self.path("bad.tiff"), numpy.full((20, 20), numpy.nan))
+        self.fails(3, "no node", "dendrite", "--node-weights", bad, *out)
+
     def test_layers_share_their_trunk(self):
         self.ok("stylize", "--preset", "tree", "--size", "200x240", "--layers", 2, "--twigs", 40, "--rounds", 2, "-o", self.path("t.json"))
         one, two = nodes(self.path("t_0000.json")), nodes(self.path("t_0001.json"))
@@ -104,7 +183,11 @@ class Plan(CliTest):
         self.fails(3, "generator", "dendrite", "--generator", "black.png", *out)
         self.fails(2, "--attenuation", "dendrite", "--attenuation", "1", *out)
         self.fails(5, "--limit-pixels", "dendrite", "--size", "40000x40000", *out)
+        self.fails(5, "bytes", "dendrite", "--size", "1000000x1000000", *out)
         self.fails(2, "--size", "dendrite", "--size", "64", *out)
+        for count in ("0", "-1", "9223372036854775808", "many", "1e30", "nan"):
+            self.fails(2, "--count-endpoints", "dendrite", "--count-endpoints", count, *out)
+        self.fails(2, "--count-endpoints", "dendrite", "--cuont-endpoints", "5", *out)
         self.fails(2, ".json", "dendrite", "-o", "a.png")
         self.fails(2, "--output", "dendrite")
         self.fails(2, "--tree", "stylize", *out)

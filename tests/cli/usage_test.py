@@ -11,7 +11,7 @@ from harness import CliTest, png
 class Usage(CliTest):
     def test_help_and_version(self):
         self.assertRegex(self.ok("--version").stdout, r"^ramify \d+\.\d+\.\d+\n$")
-        verbs = ["synth", "grow", "render", "trace", "rectify", "complete", "exemplar", "dendrite", "stylize", "figure", "paint", "compare", "convert", "replay", "info"]
+        verbs = ["synth", "grow", "render", "trace", "rectify", "complete", "exemplar", "dendrite", "stylize", "moss", "figure", "paint", "compare", "convert", "replay", "info"]
         top = self.ok("--help").stdout
         for verb in verbs:
             self.assertIn(verb, top)

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "ramify/core/error.h"
+#include "ramify/graph/second_nearest.h"
 #include "ramify/growth/endpoint_placement.h"
 #include "ramify/growth/path_refinement.h"
 #include "ramify/skeleton/edit.h"
@@ -26,7 +27,7 @@ std::vector<OptionField> describe(DendriteOptions& o) {
       number("smallest", o.smallest, 0.5, 1e6, "nodes", "No round places endpoints nearer than this: epsilon."),
       number("spacing", o.spacing, 0.0, 10.0, "", "Endpoints of a round keep this share of its distance between them."),
       number("refine", o.refine, 1, 64, "", "Plan again among n x n nodes for every node of the dendrite; 1 = not."),
-      flag("refine-each", o.refine_each, "Refine every path by itself, as the paper does; refined paths may cross."),
+      flag("refine-each", o.refine_each, "Refine every path by itself, as the paper does: paths part and meet more often; where two would cross, they join."),
   };
   out.insert(out.end(), own.begin(), own.end());
   return out;
@@ -41,11 +42,8 @@ std::vector<OptionField> describe(DendriteThickness& o) {
   };
 }
 
-namespace {
-
-// What a step of one node costs in the mean along least-cost paths, so that distances can be given in nodes. Paths find
-// the cheap nodes: measured on 512 x 512 nodes of random weights, they pay 0.26 of the spread where nodes have eight
-// neighbours, and walk corners where they have four.
+// Paths find the cheap nodes: measured on 512 x 512 nodes of random weights, they pay 0.26 of the spread where nodes have
+// eight neighbours, and walk corners where they have four.
 double cost_per_node(const Lattice& lattice) {
   const double share = 0.26, corners = lattice.connectivity == Connectivity::Plane4 ? 1.2 : 1.0;
   if (const auto* hashed = std::get_if<HashedWeights>(&lattice.weights)) return corners * (hashed->base + share * hashed->spread);
@@ -59,12 +57,16 @@ double cost_per_node(const Lattice& lattice) {
   return corners * 0.6 * sum / std::max(1, count);
 }
 
+namespace {
+
 class DendriteGrower {
  public:
   DendriteGrower(DendriteTarget target, const DendriteOptions& options, Rng rng, const Monitor& monitor)
       : target_(std::move(target)), options_(options), rng_(rng), monitor_(monitor),
         cost_per_node_(cost_per_node(target_.lattice)) {
-    structure_.forest = make_path_forest(target_.lattice.count());
+    std::vector<int> generator = connected_generators(target_.lattice, target_.generators);
+    if (*std::max_element(generator.begin(), generator.end()) == 0) generator.clear();  // one: nobody to keep apart from
+    structure_.forest = make_path_forest(target_.lattice.count(), std::move(generator));
   }
 
   Dendrite run() {
@@ -187,7 +189,7 @@ Dendrite grow_dendrite(DendriteTarget target, DendriteOptions options, Rng rng, 
   if (target.lattice.depth != 1) throw InputError("the lattice", "has " + std::to_string(target.lattice.depth) + " layers; dendrites here grow in the plane");
   Dendrite out = DendriteGrower(std::move(target), options, rng, monitor.stage("paths", 0.0, options.refine > 1 ? 0.4 : 1.0)).run();
   if (std::accumulate(out.rounds.begin(), out.rounds.end(), 0) == 0) {
-    throw InputError("the endpoints", "none can be reached from the generators; give others, or a mask that joins them");
+    throw InputError("the endpoints", "none can be reached from the generators; give others, or a mask that joins them (--debug-dir keeps a picture of what can be reached: cost.tiff)");
   }
   if (options.refine > 1) refine_dendrite(out, options, rng.child("refine"), monitor.stage("refine", 0.4, 1.0));
   return out;

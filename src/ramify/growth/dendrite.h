@@ -40,7 +40,7 @@ struct DendriteOptions {
   double smallest = 2.0;       // epsilon, nodes: no round below this distance
   double spacing = 0.3;        // endpoints of a round keep this share of its distance between them
   int refine = 1;              // n: paths are planned again among n x n nodes for every node; 1 = not
-  bool refine_each = false;    // every path by itself, as the paper does; refined paths may then cross
+  bool refine_each = false;    // every path by itself, as the paper does; where two would cross, they join
 };
 std::vector<OptionField> describe(DendriteOptions& options);
 
@@ -51,7 +51,11 @@ struct Dendrite {
   std::vector<int> rounds;     // endpoints placed in each round
 };
 
-// Deterministic in (inputs, rng). Endpoints that cannot be reached are left out with a note. Throws InputError when nothing
+// What a step of one node costs in the mean along least-cost paths, so that distances can be given in nodes.
+double cost_per_node(const Lattice& lattice);
+
+// Generators that touch are one; trees of different ones never join (competition, section 4). Deterministic in (inputs,
+// rng). Endpoints that cannot be reached are left out with a note. Throws InputError when nothing
 // at all can be reached or a generator is forbidden, OptionError for options out of range. O(n log n) at worst in the
 // lattice's nodes for the first round, then in what lies within the distance.
 Dendrite grow_dendrite(DendriteTarget target, DendriteOptions options, Rng rng, const Monitor& monitor);

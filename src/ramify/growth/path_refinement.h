@@ -9,8 +9,8 @@
 namespace ramify {
 
 // Replaces the dendrite by one on a lattice options.refine times as fine. All paths share one fine lattice, so what they
-// shared stays shared and they do not cross; with options.refine_each every path is planned in its own nodes, as in the
-// paper. Endpoints and roots stay at the middle of their nodes.
+// shared stays shared; with options.refine_each every path is planned in its own nodes, as in the paper, and where that
+// would make two cross, one turns aside and joins the other (path_forest.h). Endpoints and roots stay at the middle of their nodes.
 void refine_dendrite(Dendrite& dendrite, const DendriteOptions& options, Rng rng, const Monitor& monitor);
 
 }  // namespace ramify

@@ -39,6 +39,8 @@ std::string with_line_ends(std::string text) {
   return text;
 }
 
+}  // namespace
+
 Mask text_shape(const FigureSourceOptions& source, const std::string& font_file, const LoadLimits& limits) {
   const Lettering lettering = set_text(with_line_ends(source.text), font_file, source.text_size);
   check_canvas(lettering.size, limits, kBytesPerPixel);
@@ -55,8 +57,6 @@ Mask text_shape(const FigureSourceOptions& source, const std::string& font_file,
   }
   return shape;
 }
-
-}  // namespace
 
 std::vector<OptionField> describe(FigureOptionsAll& o) {
   std::vector<OptionField> fields{

@@ -17,6 +17,9 @@ struct FigureSourceOptions {
   bool invert = false;                     // white is the shape
 };
 
+// Where the text's ink is: 255. Throws InputError, OptionError, LimitError.
+Mask text_shape(const FigureSourceOptions& source, const std::string& font_file, const LoadLimits& limits);
+
 struct FigureOptionsAll {
   FigureSourceOptions source;
   FigureOptions figure;

@@ -9,6 +9,7 @@
 #include "ramify/core/error.h"
 #include "ramify/exemplar/stroke_text.h"
 #include "ramify/image/sample.h"
+#include "ramify/paint/lettering.h"
 #include "ramify/recipe/planning_inputs.h"
 
 namespace ramify {
@@ -27,7 +28,15 @@ std::vector<OptionField> describe(LatticeOptions& o) {
 }
 
 std::vector<OptionField> describe(DendriteRequest& r) {
-  std::vector<OptionField> out{text("size", r.size, "Canvas WIDTHxHEIGHT in px [the mask's, else 512x512]")};
+  std::vector<OptionField> out{
+      text("size", r.size, "Canvas WIDTHxHEIGHT in px [the mask's, else 512x512]"),
+      text("text", r.letters.text, "Letters that paths run in (UTF-8), \\n between lines, instead of a mask."),
+      text("font", r.letters.font, "The text's font: a name such as \"DejaVu Sans:bold\" or a font file."),
+      number("text-size", r.letters.text_size, 4, 10000, "px", "Size of the text's em."),
+      choice("lines", r.lines, {"paths", "distance", "cells"}, "What is drawn: the paths, lines of equal distance from them, or outlines of what is nearest to each root."),
+  };
+  for (OptionField& field : describe(r.cost_lines)) out.push_back(field);
+  for (OptionField& field : describe(r.aggregate)) out.push_back(field);
   for (OptionField& field : describe(r.lattice)) out.push_back(field);
   for (OptionField& field : describe(r.grow)) out.push_back(field);
   for (OptionField& field : describe(r.thickness)) out.push_back(field);
@@ -48,6 +57,9 @@ std::vector<OptionField> describe(StylizeRequest& r) {
 
 namespace {
 
+constexpr double kBytesPerNode = 24.0;  // plan, forest, endpoints
+constexpr Size kCanvas{512, 512};  // px, when nothing says otherwise
+
 Size canvas_size(const std::string& text) {
   Size size;
   const char* end = text.data() + text.size();
@@ -60,7 +72,7 @@ Size canvas_size(const std::string& text) {
 }
 
 void set_nodes(Lattice& lattice, double width, double height, const LoadLimits& limits) {
-  if (width * height > limits.pixels) throw LimitError("the lattice would have " + number_text(width * height) + " nodes, more than --limit-pixels; raise --pitch or make the canvas smaller");
+  if (width * height > limits.pixels) throw LimitError("the lattice would have " + number_text(width * height) + " nodes and need " + number_text(kBytesPerNode * width * height) + " bytes, more than --limit-pixels allows; raise --pitch or make the canvas smaller");
   lattice.width = std::max(1, static_cast<int>(std::lround(width)));
   lattice.height = std::max(1, static_cast<int>(std::lround(height)));
 }
@@ -77,7 +89,7 @@ Lattice load_lattice(const DendriteRequest& request, std::uint64_t seed, const M
     set_nodes(lattice, weights.width(), weights.height(), request.limits);
     lattice.weights = weights.pixels();
   } else {
-    const Size canvas = !request.size.empty() ? canvas_size(request.size) : !mask.empty() ? mask.size() : Size{512, 512};
+    const Size canvas = !request.size.empty() ? canvas_size(request.size) : !mask.empty() ? mask.size() : kCanvas;
     set_nodes(lattice, canvas.width / o.pitch, canvas.height / o.pitch, request.limits);
     lattice.weights = HashedWeights{Rng(seed).child("lattice").next(), 1.0, o.roughness, o.edge_weights};
   }
@@ -133,7 +145,9 @@ std::vector<std::string> input_files(const DendriteRequest& request) {
 
 DendriteTarget load_dendrite(const DendriteRequest& request, std::uint64_t seed, const Monitor& monitor) {
   monitor.check();
-  const Mask mask = request.mask.empty() ? Mask() : load_mask(request.mask, request.limits);
+  Mask mask;
+  if (!request.mask.empty()) mask = load_mask(request.mask, request.limits);
+  if (!request.letters.text.empty()) mask = text_shape(request.letters, find_font(request.letters.font), request.limits);
   DendriteTarget target;
   target.lattice = load_lattice(request, seed, mask);
   check_lattice(target.lattice);
@@ -141,6 +155,32 @@ DendriteTarget load_dendrite(const DendriteRequest& request, std::uint64_t seed,
   if (target.generators.empty()) throw InputError(request.mask.empty() ? "the lattice" : printable(request.mask, 300), "leaves no node that paths may use");
   target.endpoints = load_endpoints(request, target.lattice);
   return target;
+}
+
+void check_dendrite(const DendriteRequest& request) {
+  if (!request.letters.text.empty() && !request.mask.empty()) throw OptionError("text", "'" + printable(request.letters.text, 60) + "'", "has no effect with --mask; give one of them");
+  if (request.lines != DendriteLines::Paths && request.grow.refine > 1) throw OptionError("refine", std::to_string(request.grow.refine), "has no effect with --lines; only paths are refined");
+  if (request.aggregate.walkers == 0) return;
+  if (request.lines != DendriteLines::Paths) throw OptionError("lines", "", "has no effect with --walkers");
+  for (const std::string* file : {&request.mask, &request.node_weights, &request.generator, &request.endpoints, &request.roots, &request.letters.text}) {
+    if (!file->empty()) throw OptionError("walkers", std::to_string(request.aggregate.walkers), "start around the middle of an empty canvas; '" + printable(*file, 60) + "' would have no effect");
+  }
+}
+
+Skeleton grow_walkers(const DendriteRequest& request, std::uint64_t seed, const Monitor& monitor) {
+  const Size canvas = request.size.empty() ? kCanvas : canvas_size(request.size);
+  if (static_cast<double>(canvas.width) * canvas.height > request.limits.pixels) throw LimitError("the canvas has more pixels than --limit-pixels");
+  return aggregate_skeleton(grow_aggregate(canvas, request.aggregate, Rng(seed).child("walkers"), monitor), request.thickness.tip);
+}
+
+Skeleton dendrite_lines(const DendriteRequest& request, const DendriteTarget& target, const Dendrite& dendrite, const Monitor& monitor) {
+  const double pitch = request.lattice.pitch;
+  switch (request.lines) {
+    case DendriteLines::Distance: return distance_lines(dendrite, pitch, request.cost_lines, monitor);
+    case DendriteLines::Cells: return cell_outlines(target.lattice, target.generators, pitch, request.cost_lines.radius, monitor);
+    case DendriteLines::Paths: break;
+  }
+  return dendrite_skeleton(dendrite, pitch, request.thickness);
 }
 
 std::vector<std::string> input_files(const StylizeRequest& request) {

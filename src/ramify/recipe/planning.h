@@ -9,11 +9,14 @@
 #include "ramify/core/monitor.h"
 #include "ramify/core/options.h"
 #include "ramify/graph/lattice.h"
+#include "ramify/growth/aggregation.h"
+#include "ramify/growth/cost_lines.h"
 #include "ramify/growth/dendrite.h"
 #include "ramify/growth/importance.h"
 #include "ramify/growth/picture_tree.h"
 #include "ramify/growth/stylization.h"
 #include "ramify/image/image_io.h"
+#include "ramify/recipe/figure.h"
 #include "ramify/skeleton/skeleton.h"
 
 namespace ramify {
@@ -32,9 +35,17 @@ struct LatticeOptions {
 };
 std::vector<OptionField> describe(LatticeOptions& options);
 
+// What becomes of a grown dendrite.
+enum class DendriteLines {
+  Paths,     // its paths
+  Distance,  // lines of equal distance from it
+  Cells,     // outlines of what is nearest to each generator; the paths do not matter
+};
+
 struct DendriteRequest {
   std::string size;             // "WIDTHxHEIGHT" px; empty = that of the mask or the weights, else 512x512
   std::string mask;             // picture: white = paths may run here; empty = everywhere
+  FigureSourceOptions letters;  // text instead of a mask: one graph for every letter
   std::string node_weights;     // float TIFF, one weight a node: the lattice is as large, the canvas pitch times larger
   std::string roots;            // "x,y x,y …" px; or
   std::string generator;        // a picture (white = generator), a drawing (.svg: its lines) or a skeleton; or neither
@@ -42,9 +53,21 @@ struct DendriteRequest {
   LatticeOptions lattice;
   DendriteOptions grow;
   DendriteThickness thickness;
+  DendriteLines lines = DendriteLines::Paths;
+  CostLineOptions cost_lines;
+  AggregationOptions aggregate{0, WalkerLaunch::Circle};  // walkers instead of paths, when there are any
   LoadLimits limits;
 };
 std::vector<OptionField> describe(DendriteRequest& request);
+
+// Throws OptionError for options that would have no effect together.
+void check_dendrite(const DendriteRequest& request);
+
+// Walkers on the request's canvas. Throws as grow_aggregate.
+Skeleton grow_walkers(const DendriteRequest& request, std::uint64_t seed, const Monitor& monitor);
+
+// The lines that the request wants of a dendrite grown from the target.
+Skeleton dendrite_lines(const DendriteRequest& request, const DendriteTarget& target, const Dendrite& dendrite, const Monitor& monitor);
 
 // Reads and checks everything. Without roots or generator: the middle of every connected piece that may be entered; the
 // middle of the top for lightning; the whole bottom for moss. Throws InputError, OptionError, LimitError.
