@@ -42,14 +42,15 @@ void run(Rival& rival, const Grow& grow) {
 Skeleton imitate(std::uint64_t seed) {
   DendriteTarget target;
   target.lattice.width = target.lattice.height = 500;
-  target.lattice.weights = HashedWeights{seed, 1.0, 10.0, false};
+  target.lattice.weights = HashedWeights{seed, 1.0, 40.0, false};
   target.generators = {target.lattice.node(250, 250)};
   DendriteOptions options;
-  options.endpoints = 22;
-  options.distance = 200.0;
-  options.attenuation = 2.0;
-  options.branching = 5.0;
-  options.rounds = 4;
+  options.endpoints = 6;
+  options.distance = 130.0;
+  options.attenuation = 1.9;
+  options.branching = 2.8;
+  options.rounds = 7;
+  options.spacing = 0.15;
   return dendrite_skeleton(grow_dendrite(std::move(target), options, Rng(seed), {}), 1.0, {});
 }
 

@@ -92,7 +92,7 @@ class Plan(CliTest):
         rng = numpy.random.default_rng(6)
         weights = rng.uniform(0.5, 3.0, (50, 70))
         path = tiff(self.path("w.tiff"), weights)
-        roots = [(20, 25), (55, 12), (48, 40)]
+        roots = [(55, 12), (20, 25), (48, 40)]  # in reading order, as cells are numbered
         text = " ".join(f"{x},{y}" for x, y in roots)
         alone = [MCP_Geometric(weights, fully_connected=True).find_costs([(y, x)])[0] for x, y in roots]
         self.ok("dendrite", "--node-weights", path, "--roots", text, "--lines", "cells", "-o", self.path("cells.json"))
@@ -151,6 +151,7 @@ class Plan(CliTest):
         mask = self.path("wall.png", png(60, 40, wall))
         ends = self.path("ends.csv", "50,20\n")
         out = ("-o", "a.json")
+        os.mkdir(self.path("debug"))
         self.fails(2, "no path may run", "dendrite", "--mask", mask, "--roots", "30,20", *out)
         self.fails(3, "none can be reached", "dendrite", "--mask", mask, "--roots", "10,20", "--endpoints", ends, "--debug-dir", self.path("debug"), *out)
         reach = numpy.asarray(Image.open(self.path("debug/cost.tiff")))  # the picture of what is blocked

@@ -13,7 +13,7 @@ namespace ramify {
 
 std::vector<OptionField> describe(AggregationOptions& o) {
   return {
-      number("walkers", o.walkers, 1, 100000000, "", "Walkers that stay, one after the other."),
+      number("walkers", o.walkers, 0, 100000000, "", "Walkers that stay, one after the other (diffusion-limited aggregation, to compare paths with)."),
       choice("launch", o.launch, {"any-node", "circle"}, "Walkers start at any free node, as in the first paper, or on a circle around what is there, which is much faster."),
   };
 }

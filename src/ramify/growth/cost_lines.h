@@ -25,7 +25,7 @@ Skeleton distance_lines(const Dendrite& dendrite, double pitch, const CostLineOp
 
 // The outline of every generator's cell, smooth although labels are whole numbers: the zero line of the difference between
 // the costs of the two nearest generators (two_nearest). Outlines of neighbours coincide; at the canvas's edge they close
-// along it. Generators that touch are one. tag: the generator, 1 = the first. Throws InputError for less than two.
+// along it. Generators that touch are one. tag: the generator, 1 = the first in reading order. Throws InputError for less than two.
 Skeleton cell_outlines(const Lattice& lattice, const std::vector<int>& generators, double pitch, double radius, const Monitor& monitor);
 
 }  // namespace ramify
