@@ -109,9 +109,9 @@ class Plan(CliTest):
         dots = self.path("ends.csv", "20,25\n")
         self.ok("dendrite", "--node-weights", path, "--roots", "20,25", "--endpoints", dots, "--lines", "distance", "--line-count", 4, "-o", self.path("far.json"))
         far = json.loads(pathlib.Path(self.path("far.json")).read_text())
-        step = alone[0].max() / 5
+        step = alone[1].max() / 5
         for (x, y, *_), tag in zip(far["nodes"], far["tags"]):
-            low = alone[0][int(numpy.floor(y)):int(numpy.ceil(y)) + 1, int(numpy.floor(x)):int(numpy.ceil(x)) + 1]
+            low = alone[1][int(numpy.floor(y)):int(numpy.ceil(y)) + 1, int(numpy.floor(x)):int(numpy.ceil(x)) + 1]
             self.assertLessEqual(low.min(), tag * step * (1 + 1e-4))
             self.assertGreaterEqual(low.max(), tag * step * (1 - 1e-4))
         self.ok("dendrite", "--node-weights", path, "--lines", "distance", "-o", self.path("far.svg"))
