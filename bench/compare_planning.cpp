@@ -214,10 +214,13 @@ void grow_fractal(int runs) {
       lattice.weights = HashedWeights{static_cast<std::uint64_t>(run), 1.0, 10.0, true};
       Rng rng(static_cast<std::uint64_t>(run));
       PathForest forest = make_path_forest(lattice.count());
-      Plan plan = plan_paths(lattice, std::vector<int>{lattice.node(256, 256)});
+      PlanOptions within;
+      within.max_cost = 900.0;
+      Plan plan = plan_paths(lattice, std::vector<int>{lattice.node(256, 256)}, within);
       endpoints = 0;
       double wanted = 12.0;
       for (double distance = 900.0; distance > 4.0; distance /= 2.0, wanted *= 2.4) {
+        const std::size_t before = forest.nodes.size();
         for (int tries = 0, placed = 0; placed < wanted && tries < 60 * wanted; ++tries) {
           const int node = rng.below(lattice.count());
           const double cost = path_cost(plan, node);
@@ -226,7 +229,8 @@ void grow_fractal(int runs) {
           placed += path.count > 0;
           endpoints += path.count > 0;
         }
-        plan = reseeded(std::move(plan), lattice, forest.nodes, distance);
+        if (distance / 2.0 <= 4.0) break;  // that was the last round
+        plan = reseeded(std::move(plan), lattice, std::span<const int>(forest.nodes).subspan(before), distance / 2.0);
       }
     }));
   }
