@@ -47,12 +47,16 @@ Centroids measure_centroids(const LabelImage& label, std::size_t cells, const Ma
     std::vector<Sum>& own = sums[static_cast<std::size_t>(strip)];
     for (int y = label.height() * strip / kStrips; y < label.height() * (strip + 1) / kStrips; ++y) {
       const std::int32_t* row = label.row(y);
-      for (int x = 0; x < label.width(); ++x) {
-        if (row[x] < 0 || row[x] >= static_cast<int>(cells) || (!shape.empty() && !shape(x, y))) continue;
+      for (int x = 0, end = 0; x < label.width(); x = end) {  // cells are runs of pixels
+        const auto counts = [&](int at) { return row[at] == row[x] && (shape.empty() || shape(at, y)); };
+        for (end = x; end < label.width() && counts(end);) ++end;
+        const std::int64_t count = end - x;
+        end += count == 0;
+        if (count == 0 || row[x] < 0 || row[x] >= static_cast<int>(cells)) continue;
         Sum& sum = own[static_cast<std::size_t>(row[x])];
-        sum.x += x;
-        sum.y += y;
-        ++sum.count;
+        sum.x += count * (2 * x + count - 1) / 2;
+        sum.y += count * y;
+        sum.count += static_cast<std::int32_t>(count);
       }
     }
   });
@@ -94,8 +98,9 @@ void label_geodesically(FigureCells& cells, const Monitor& monitor) {
   }
 }
 
-std::vector<Vec2> border_sites(const Mask& shape, int count, const Rng& rng) {
-  std::vector<Vec2> border;
+// Of the shape's pixels those beside one that is not, or at the picture's edge; row by row.
+std::vector<std::pair<int, int>> border_pixels(const Mask& shape) {
+  std::vector<std::pair<int, int>> border;
   for (int y = 0; y < shape.height(); ++y) {
     for (int x = 0; x < shape.width(); ++x) {
       if (!shape(x, y)) continue;
@@ -104,6 +109,12 @@ std::vector<Vec2> border_sites(const Mask& shape, int count, const Rng& rng) {
       if (!inner) border.emplace_back(x, y);
     }
   }
+  return border;
+}
+
+std::vector<Vec2> border_sites(const Mask& shape, int count, const Rng& rng) {
+  std::vector<Vec2> border;
+  for (const auto& [x, y] : border_pixels(shape)) border.emplace_back(x, y);
   Rng own = rng.child("border");
   own.shuffle(border);
   // By rejection, or gaps would let cells out.
@@ -177,12 +188,8 @@ Mask bridged(const Mask& shape, double width) {
   int count = 0;
   const LabelImage component = label_components(shape, false, count);
   if (count < 2) return shape;
-  std::vector<std::pair<int, int>> seeds;
-  for (int y = 0; y < shape.height(); ++y) {
-    for (int x = 0; x < shape.width(); ++x) {
-      if (shape(x, y)) seeds.emplace_back(x, y);
-    }
-  }
+  const std::vector<std::pair<int, int>> seeds =
+      border_pixels(shape);  // what is nearest to anything outside of its part
   const LabelImage nearest = nearest_seeds(seeds, shape.size());
   struct Gap {
     double length;

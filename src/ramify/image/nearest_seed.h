@@ -9,9 +9,10 @@
 
 namespace ramify {
 
-// For every pixel the index of the seed (a pixel, inside the picture) whose centre is nearest, exactly; kNone where there
-// are no seeds. Of seeds in one pixel the first counts; of seeds equally far any may, but always the same. O(pixels), in
-// two passes of lower envelopes (Felzenszwalb and Huttenlocher 2012), parallel.
+// For every pixel the index of the seed (a pixel, inside the picture) whose centre is nearest, exactly; of seeds
+// equally far the first. kNone where there are no seeds. Boxes are halved with the lists of the seeds that may be
+// nearest in them, and the pixels of small boxes compared with what is left: O(pixels) where seeds are spread over the
+// picture. Parallel.
 LabelImage nearest_seeds(const std::vector<std::pair<int, int>>& seeds, Size size);
 
 }  // namespace ramify
