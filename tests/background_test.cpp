@@ -167,10 +167,9 @@ TEST_CASE("a larger canvas extends the photo beyond its frame") {
   const Size canvas{300, 160};
   const BackgroundPlan plan = plan_background(s.exemplar, s.habitat, s.plate, canvas, with(BackgroundMode::Keep), Rng(1));
   const Background b = make_background(s.exemplar, s.habitat, s.plate, plan, {}, Rng(1), {});
-  CHECK(b.color(50 + 20, 30) == s.plate.color(20, 30));
+  for (const int x : {34, 100, 165}) CHECK(b.color(50 + x, 30) == s.plate.color(x, 30));  // all but the outer sixths
   for (int y = 0; y < 160; ++y) {
     for (const int x : {0, 10, 45, 255, 299}) CHECK(b.color(x, y).g == Approx(0.5).margin(0.25));
-    CHECK(b.color(49 - 12, y) == b.color(50 + 12, y));
   }
 }
 

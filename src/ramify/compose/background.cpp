@@ -117,17 +117,19 @@ Background taken_over(const Habitat& habitat, const Plate& plate, const Backgrou
   Background out;
   out.color = ColorImage(plan.canvas);
   const bool whole = is_whole(plan);
-  const Size photo = plate.color.size();
+  const ColorImage& wide = plan.wider.color;
+  const Eigen::Vector2f corner(static_cast<float>(plan.wider.left), static_cast<float>(plan.wider.top));
+  for (auto& p : map.pixels()) p += corner;
   parallel_for(plan.canvas.height, [&](int y) {
     for (int x = 0; x < plan.canvas.width; ++x) {
-      const Vec2 p = plan.beyond(map(x, y).cast<double>(), photo);
-      map(x, y) = p.cast<float>();
-      out.color(x, y) = whole ? plate.color(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())))
-                              : sample_lanczos3(plate.color, p);
+      const Vec2 p = map(x, y).cast<double>();
+      out.color(x, y) = whole ? wide.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())))
+                              : sample_lanczos3(wide, p);
     }
   }, 16);
   monitor.report(0.5);
-  if (!whole) restore_grain(out.color, plate.color, map);
+  if (!whole) restore_grain(out.color, wide, map);
+  for (auto& p : map.pixels()) p = plan.shown_at((p - corner).cast<double>()).cast<float>();
   out.outside = mapped(habitat.outside, map);
   out.source = through_plate(std::move(map), plate);
   monitor.report(1.0);

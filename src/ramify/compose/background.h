@@ -7,6 +7,7 @@
 #include <array>
 
 #include "ramify/compose/compose.h"
+#include "ramify/compose/wider_plate.h"
 #include "ramify/core/monitor.h"
 #include "ramify/core/random.h"
 #include "ramify/exemplar/exemplar.h"
@@ -26,15 +27,13 @@ struct BackgroundPlan {
   // Bends of Vary: waves of the canvas, faded out near the frame, near landmarks and near what lies outside.
   struct Wave { Vec2 frequency = Vec2::Zero(), amplitude = Vec2::Zero(); double phase = 0.0; };
   std::array<Wave, 3> waves{};
-  // Beyond the photo it goes on mirrored, back and forth over this many px: all of it, or the margin that lies outside the
-  // habitat (paper, surround, the dark below a skyline), so that no second leaf or skyline appears. left, top, right, bottom
-  std::array<int, 4> margins{1 << 20, 1 << 20, 1 << 20, 1 << 20};
+  WiderPlate wider;  // the plate, continued to wherever the canvas reaches beyond the photo
 
   // Where a landmark, root or outside shape of the photo lies on the canvas. px.
   Vec2 canvas_from_photo(const Vec2& photo, int photo_width) const;
   Vec2 photo_from_canvas(const Vec2& canvas_point, int photo_width) const;
-  // A point beyond the photo, where the photo goes on; points within it are returned as they are. px of the photo.
-  Vec2 beyond(const Vec2& photo, Size size) const;
+  // What of the photo is shown at a point of it, or beyond it. px of the photo.
+  Vec2 shown_at(const Vec2& photo) const;
 };
 
 struct BackgroundOptions {

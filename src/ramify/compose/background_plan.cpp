@@ -51,16 +51,25 @@ std::array<int, 4> outside_margins(const Mask& outside) {
   return margins;
 }
 
-// `d` px beyond an edge lies so many px within it.
-double back_and_forth(double d, int margin) {
-  const double k = std::fmod(std::max(0.0, d), 2.0 * margin);
-  return k < margin ? k : 2.0 * margin - 1.0 - k;
-}
-
-double beyond_edge(double t, int length, int low_margin, int high_margin) {
-  if (t < -0.5) t = back_and_forth(-1.0 - t, std::min(low_margin, length));
-  else if (t >= length - 0.5) t = length - 1.0 - back_and_forth(t - length, std::min(high_margin, length));
-  return std::clamp(t, 0.0, length - 1.0);
+// The plate, continued to wherever the canvas reaches beyond the photo.
+WiderPlate widened(const Plate& plate, const Habitat& habitat, const BackgroundPlan& plan, Rng rng) {
+  const Size photo = plate.color.size();
+  const Vec2 a = plan.photo_from_canvas(Vec2::Zero(), photo.width);
+  const Vec2 b = plan.photo_from_canvas(Vec2(plan.canvas.width - 1.0, plan.canvas.height - 1.0), photo.width);
+  const Vec2 low = a.cwiseMin(b), high = a.cwiseMax(b);
+  WiderPlateJob job;
+  job.outside = habitat.outside;
+  job.landmark = Mask(photo, 0);
+  for (std::size_t i = 0; i < habitat.role.pixels().size(); ++i) {
+    const auto role = static_cast<RegionRole>(habitat.role.pixels()[i]);
+    if (role == RegionRole::Landmark) job.landmark.pixels()[i] = 255;
+    if (role == RegionRole::Keep) job.outside.pixels()[i] = 255;
+  }
+  job.margins = outside_margins(habitat.outside);
+  const auto whole = [](double px) { return static_cast<int>(std::ceil(std::max(0.0, px))); };
+  job.add = {whole(-low.x()), whole(-low.y()), whole(high.x() - photo.width + 1.0),
+             whole(high.y() - photo.height + 1.0)};
+  return widen_plate(plate.color, job, rng);
 }
 
 void draw_waves(BackgroundPlan& plan, double bend, Rng rng) {
@@ -89,8 +98,10 @@ Vec2 BackgroundPlan::photo_from_canvas(const Vec2& canvas_point, int photo_width
   return p;
 }
 
-Vec2 BackgroundPlan::beyond(const Vec2& photo, Size size) const {
-  return {beyond_edge(photo.x(), size.width, margins[0], margins[2]), beyond_edge(photo.y(), size.height, margins[1], margins[3])};
+Vec2 BackgroundPlan::shown_at(const Vec2& photo) const {
+  const Vec2 p = photo + Vec2(wider.left, wider.top);
+  const Vec2 whole(std::round(p.x()), std::round(p.y()));
+  return wider.source.clamped(static_cast<int>(whole.x()), static_cast<int>(whole.y())).cast<double>() + (p - whole);
 }
 
 std::vector<OptionField> describe(BackgroundOptions& o) {
@@ -136,7 +147,6 @@ BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat,
   // What lies outside is never cut, and a skyline moves sideways only: no enlargement.
   const bool may_scale = outside == 0.0;
   cover(plan, exemplar.photo.color.size(), may_scale);
-  plan.margins = outside_margins(habitat.outside);
   Rng draw = rng.child("background-plan");
   if (plan.mode != BackgroundMode::Keep) plan.flipped = options.mirror && draw.below(2) == 1;
   if (plan.mode == BackgroundMode::Vary) {
@@ -147,6 +157,7 @@ BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat,
     }
     draw_waves(plan, options.bend, draw.child("waves"));
   }
+  plan.wider = widened(plate, habitat, plan, draw.child("wider"));
   return plan;
 }
 

@@ -146,7 +146,7 @@ Mask on_canvas(const Mask& photo_map, const BackgroundPlan& plan) {
   Mask out(plan.canvas, 0);
   parallel_for(plan.canvas.height, [&](int y) {
     for (int x = 0; x < plan.canvas.width; ++x) {
-      const Vec2 p = plan.beyond(plan.photo_from_canvas(Vec2(x, y), photo_map.width()), photo_map.size());
+      const Vec2 p = plan.shown_at(plan.photo_from_canvas(Vec2(x, y), photo_map.width()));
       out(x, y) = photo_map.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
     }
   }, 16);

@@ -25,7 +25,7 @@ ComposeScene prepare_scene(const Exemplar& exemplar, const ComposeOptions& optio
 BackgroundPlan plan_scene_background(const Exemplar& exemplar, const ComposeScene& scene, Size canvas,
                                      const ComposeOptions& options, Rng rng);
 
-// A map of the photo (255 or 0 per pixel) as it lies on the canvas; beyond the photo as BackgroundPlan::beyond has it.
+// A map of the photo (255 or 0 per pixel) as it lies on the canvas; beyond the photo as the wider plate has it.
 Mask on_canvas(const Mask& photo_map, const BackgroundPlan& plan);
 
 // The skeleton lies on plan.canvas. Throws InputError when the exemplar offers no fragment for it.
