@@ -94,13 +94,16 @@ double misfit(const ColorImage& tail, const Mask& tail_outside, const ColorImage
   return sum;
 }
 
-// One of the starts that fit about as well as the best.
-std::optional<int> draw_start(const Sheet& tail, const Sheet& from, const ColorImage& tone, std::pair<int, int> usable, int least, Rng& rng) {
-  constexpr double kAsWell = 1.3;
+// One of the starts that do about as well as the best: that fit, and go on for `wanted` px, so that nothing is seen to
+// repeat.
+std::optional<int> draw_start(const Sheet& tail, const Sheet& from, const ColorImage& tone, std::pair<int, int> usable,
+                              int least, int wanted, Rng& rng) {
+  constexpr double kAsWell = 1.3, kShort = 2.0;
   const ColorImage tail_tone = gaussian_blur(tail.color, kStep);
   std::vector<double> costs;
   for (int s = usable.first; s + tail.color.width() + least <= usable.second; s += kStep) {
-    costs.push_back(misfit(tail_tone, tail.outside, tone, from.outside, s));
+    const double missing = std::max(0.0, 1.0 - static_cast<double>(usable.second - s - tail.color.width()) / wanted);
+    costs.push_back((1.0 + kShort * missing) * misfit(tail_tone, tail.outside, tone, from.outside, s));
   }
   if (costs.empty()) return std::nullopt;
   const double most = kAsWell * *std::min_element(costs.begin(), costs.end());
@@ -181,19 +184,21 @@ void reflect(Sheet& wide, int end, int margin) {
 
 // The last `own` columns are the photo's, and pieces come from there.
 Sheet continued_right(const Sheet& sheet, int own, int add, int margin, Rng rng) {
-  const int w = sheet.color.width(), h = sheet.color.height(), overlap = own / 6;
+  const int w = sheet.color.width(), h = sheet.color.height();
   if (add <= 0) return sheet;
   Sheet wide{ColorImage(w + add, h), VectorImage(w + add, h), Mask(w + add, h), Mask(w + add, h)};
   lay(wide, sheet, 0);
   const std::vector<bool> columns = usable_columns(sheet, w - own);
   const std::pair<int, int> usable = longest_run(columns);
   const int tail_length = static_cast<int>(std::find(columns.rbegin(), columns.rend(), false) - columns.rbegin());
+  const int overlap = std::min(own / 6, tail_length);
   int end = w;
-  if (margin >= own && overlap > kStep && tail_length >= overlap) {
+  if (margin >= own && overlap > std::max(kStep, own / 16)) {
     const ColorImage tone = gaussian_blur(sheet.color, kStep);
     while (end < w + add) {
       const Sheet tail = piece_of(wide, end - overlap, overlap);
-      const std::optional<int> start = draw_start(tail, sheet, tone, usable, std::min(add, overlap), rng);
+      const std::optional<int> start =
+          draw_start(tail, sheet, tone, usable, std::min(add, own / 6), std::min(add, own / 2), rng);
       if (!start) break;  // the first time, or never
       const int more = std::min(usable.second - *start - overlap, w + add - end);
       lay(wide, join(tail, piece_of(sheet, *start, overlap)), end - overlap);
