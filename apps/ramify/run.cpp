@@ -42,6 +42,15 @@ extern "C" void handle_stop(int signal) {
   errno = error;
 }
 
+// Under a limit of memory: glib aborts or traps when one of its small blocks cannot be had, wherever that is. A bug would
+// come here as well, so the message names both.
+extern "C" void handle_abort(int) {
+  constexpr char kAborted[] = "ramify: a library gave up, most likely for want of memory; raise --limit-memory or the system's limit\n";
+  remove_unfinished_files();
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kAborted, sizeof kAborted - 1);
+  _exit(static_cast<int>(ExitCode::Limit));
+}
+
 // A verb was stopped by a signal, by --timeout or by a limit of processor time.
 int report_stop(const SharedOptions& shared) {
   const std::string kept = "; no file was left unfinished";
@@ -59,6 +68,9 @@ void install_handlers() {
   ignore.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &ignore, nullptr);
   sigaction(SIGXFSZ, &ignore, nullptr);  // a file size limit then fails like a full disk, with a message
+  if (!memory_is_limited()) return;
+  action.sa_handler = handle_abort;
+  for (const int signal : {SIGABRT, SIGTRAP}) sigaction(signal, &action, nullptr);
 }
 
 // Ends a verb that does not end by itself: cancels the monitor when the time is up; and if the verb has not stopped a
@@ -164,9 +176,9 @@ int report_error(const SharedOptions& shared, ExitCode code, const std::string& 
 int run_verb(const SharedOptions& shared, const std::function<Outcome(const Monitor&)>& work) {
   const auto start = std::chrono::steady_clock::now();
   g_monitor = make_monitor(shared);
+  limit_memory(shared.limit_memory);
   install_handlers();
   set_thread_count(shared.threads);
-  limit_memory(shared.limit_memory);
   share_heap_if_limited();
   try {
     const Outcome outcome = [&] {

@@ -15,9 +15,13 @@ void require_memory(std::size_t bytes) {
   munmap(space, bytes);
 }
 
-void share_heap_if_limited() {
+bool memory_is_limited() {
   struct rlimit limit {};
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) mallopt(M_ARENA_MAX, 1);
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+void share_heap_if_limited() {
+  if (memory_is_limited()) mallopt(M_ARENA_MAX, 1);
 }
 
 }  // namespace ramify

@@ -10,7 +10,10 @@ namespace ramify {
 // Throws std::bad_alloc when the process may not take `bytes` more of address space (ulimit -v). Costs microseconds.
 void require_memory(std::size_t bytes);
 
-// Under a limit of the address space: lets all threads share one heap, since each of their own would set 64 MiB aside.
+// Whether the process has a limit of its address space (ulimit -v).
+bool memory_is_limited();
+
+// Under such a limit: lets all threads share one heap, since each of their own would set 64 MiB aside.
 // Call it before the first thread.
 void share_heap_if_limited();
 

@@ -4,9 +4,14 @@
 #include <dlfcn.h>
 
 #include "ramify/core/error.h"
+#include "ramify/core/memory.h"
 
 namespace ramify {
 namespace {
+
+// glib ends the program when one of its small blocks cannot be had: while it starts it takes some MiB, more or less by
+// where the system lays the libraries out.
+constexpr std::size_t kStart = std::size_t{24} << 20;  // bytes
 
 void keep_silent(const char*, GLogLevelFlags, const char*, void*) {}
 
@@ -31,6 +36,7 @@ VipsLibrary load() {
 
 VipsLibrary start() {
   const VipsLibrary library = load();
+  require_memory(kStart);
   for (const char* domain : {"VIPS", "GModule"}) {
     library.g_log_set_handler(domain,
                               static_cast<GLogLevelFlags>(G_LOG_LEVEL_MASK | G_LOG_FLAG_FATAL | G_LOG_FLAG_RECURSION),
