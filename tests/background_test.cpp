@@ -195,3 +195,38 @@ TEST_CASE("beyond the photo only its margin goes on where that lies outside the 
   const int top = static_cast<int>(plan.shift.y());
   for (int y = 0; y < 300; ++y) CHECK((b.outside(100, y) != 0) == (y >= top + kSkyline));
 }
+
+TEST_CASE("a small canvas shows the part of the photo where what is wanted is open") {
+  const Vec2 eye(150, 130);  // px, a round field on closed ground
+  Mask closed(300, 260, 255);
+  for (int y = 0; y < 260; ++y) {
+    for (int x = 0; x < 300; ++x) closed(x, y) = (Vec2(x, y) - eye).norm() < 100.0 ? 0 : 255;
+  }
+  ScalarImage wanted(120, 100, 0.0f);
+  for (int y = 10; y < 90; ++y) {
+    for (int x = 10; x < 110; ++x) wanted(x, y) = 1.0f;
+  }
+  for (const bool flipped : {false, true}) {
+    BackgroundPlan plan;
+    plan.canvas = wanted.size();
+    plan.flipped = flipped;
+    CHECK(move_under(plan, closed, wanted) == 0.0);
+    for (int y = 10; y < 90; ++y) {
+      for (int x = 10; x < 110; ++x) {
+        const Vec2 p = plan.photo_from_canvas(Vec2(x, y), 300);
+        CHECK((p - eye).norm() < 101.0);
+      }
+    }
+    const Vec2 there = plan.shift;
+    CHECK(move_under(plan, closed, wanted) == 0.0);
+    CHECK(plan.shift == there);  // nothing moves without need
+  }
+  // The whole photo is shown: what lies beyond the field stays there, and is told.
+  BackgroundPlan whole;
+  whole.canvas = closed.size();
+  ScalarImage corner(300, 260, 0.0f);
+  for (int y = 0; y < 260; ++y) std::fill_n(corner.row(y), y < 130 ? 300 : 0, 1.0f);
+  const double off = 1.0 - 0.5 * kPi * 100.0 * 100.0 / (300.0 * 130.0);
+  CHECK(move_under(whole, closed, corner) == Catch::Detail::Approx(off).margin(0.02));
+  CHECK(whole.shift == Vec2::Zero());
+}

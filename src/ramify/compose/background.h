@@ -56,6 +56,11 @@ SlowTones measure_slow_tones(const ColorImage& photo, const Mask& without);
 BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat, const Plate& plate, Size canvas,
                                const BackgroundOptions& options, Rng rng);
 
+// Where the canvas shows only a part of the photo, moves the photo so that as little as possible of what is wanted
+// (canvas, weights >= 0) lies where it is closed (photo, 255); as near to where it was as that allows. Returns the
+// share of the weight that still does, 0..1. O(canvas samples x 625 places), 4096 samples for a square canvas.
+double move_under(BackgroundPlan& plan, const Mask& closed, const ScalarImage& wanted);
+
 struct Background {
   ColorImage color;
   VectorImage source;  // photo pixel every pixel comes from (px); NaN where it was filled smoothly

@@ -161,4 +161,39 @@ BackgroundPlan plan_background(const Exemplar& exemplar, const Habitat& habitat,
   return plan;
 }
 
+double move_under(BackgroundPlan& plan, const Mask& closed, const ScalarImage& wanted) {
+  constexpr int kPlaces = 24, kSamples = 64;
+  const int stride = std::max(1, std::min(wanted.width(), wanted.height()) / kSamples);
+  const auto lost = [&](const Vec2& shift) {
+    BackgroundPlan moved = plan;
+    moved.shift = shift;
+    double all = 0.0, off = 0.0;
+    for (int y = stride / 2; y < wanted.height(); y += stride) {
+      for (int x = stride / 2; x < wanted.width(); x += stride) {
+        const Vec2 p = moved.beyond(moved.photo_from_canvas(Vec2(x, y), closed.width()), closed.size());
+        const bool here =
+            closed.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))) > 0;
+        all += wanted(x, y);
+        off += here ? wanted(x, y) : 0.0;
+      }
+    }
+    return all > 0.0 ? off / all : 0.0;
+  };
+  const Vec2 own = plan.shift;
+  const Vec2 spare = plan.scale * Vec2(closed.width(), closed.height()) - Vec2(plan.canvas.width, plan.canvas.height);
+  double least = lost(own);
+  if (least == 0.0) return 0.0;
+  for (int i = 0; i <= kPlaces; ++i) {
+    for (int j = 0; j <= kPlaces; ++j) {
+      // Whole pixels; along a side that shows all of the photo nothing moves.
+      const Vec2 shift(spare.x() > 0.0 ? std::floor(-spare.x() * i / kPlaces) : own.x(),
+                       spare.y() > 0.0 ? std::floor(-spare.y() * j / kPlaces) : own.y());
+      const double off = lost(shift);
+      const bool nearer = (shift - own).norm() < (plan.shift - own).norm();
+      if (off < least || (off == least && nearer)) least = off, plan.shift = shift;
+    }
+  }
+  return least;
+}
+
 }  // namespace ramify

@@ -137,14 +137,13 @@ Skeleton mirrored(Skeleton skeleton) {
   return skeleton;
 }
 
-// Growth leaves what lies outside the habitat, and what is kept as it is, like the frame.
-Mask no_habitat(const Habitat& habitat, const BackgroundPlan& plan) {
-  if (habitat.role.empty() || plan.mode == BackgroundMode::New) return {};
+// Growth leaves what lies outside the habitat, and what is kept as it is, like the frame: of the photo, 255.
+Mask no_habitat(const Habitat& habitat) {
   Mask map = habitat.outside;
   for (std::size_t i = 0; i < map.pixels().size(); ++i) {
     if (habitat.role.pixels()[i] == static_cast<std::uint8_t>(RegionRole::Keep)) map.pixels()[i] = 255;
   }
-  return on_canvas(map, plan);
+  return map;
 }
 
 // Which nodes lie on a landmark, and which where the habitat ends. A landmark is touched by a
@@ -177,9 +176,23 @@ std::optional<KeptGround> kept_ground(const BackgroundPlan& plan, int photo_widt
   return kept;
 }
 
+bool has_habitat(const Habitat& habitat, const BackgroundPlan& plan) {
+  return !habitat.role.empty() && plan.mode != BackgroundMode::New;
+}
+
+// A painted map means what it shows: the photo is moved to where its habitat lies under the paint.
+void move_under_paint(BackgroundPlan& plan, const LoadedRequest& loaded, const Monitor& monitor) {
+  if (loaded.target.density.empty() || loaded.skeleton || !has_habitat(loaded.scene.habitat, plan)) return;
+  const double lost = move_under(plan, no_habitat(loaded.scene.habitat), loaded.target.density);
+  if (lost < 0.02) return;
+  monitor.note(
+      number_text(std::round(100.0 * lost)) +
+      " % of what is painted lies where the photo has no branches (below a skyline, beyond a rim) and stays empty");
+}
+
 Skeleton grow_on_plan(const LoadedRequest& loaded, const BackgroundPlan& plan, const Rng& rng, const Monitor& monitor) {
   GrowthTarget target = loaded.target;
-  target.outside = no_habitat(loaded.scene.habitat, plan);
+  if (has_habitat(loaded.scene.habitat, plan)) target.outside = on_canvas(no_habitat(loaded.scene.habitat), plan);
   target.kept = kept_ground(plan, loaded.source.exemplar.photo.color.width());
   const GrowOptions& options = loaded.request.options.grow;
   if (!plan.flipped) return grow_from_style(loaded.style, target, options, rng, monitor);
@@ -267,6 +280,7 @@ Picture make_picture(const LoadedRequest& loaded, std::uint64_t seed, const Moni
   if (picture_wanted) {
     plan = plan_scene_background(exemplar, loaded.scene, loaded.target.size, options.compose, rng.child("plan"));
   }
+  move_under_paint(plan, loaded, monitor);
   Picture picture;
   picture.recipe = make_recipe(loaded, seed);
   if (loaded.skeleton) {
