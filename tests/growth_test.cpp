@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "ramify/core/parallel.h"
+#include "ramify/geometry/polyline.h"
+#include "ramify/growth/course.h"
 #include "ramify/growth/grow.h"
 #include "ramify/growth/joining.h"
 #include "ramify/growth/mask_strokes.h"
@@ -357,6 +359,39 @@ TEST_CASE("a guided main branch stays in its valley") {
     CHECK(beyond <= 0.05 * grown.count());
     CHECK(farthest_x > 480.0);
   }
+}
+
+TEST_CASE("a guided main branch keeps the exemplar's bends") {
+  test::WavyTree tree;
+  tree.wave = 0.35;
+  const Style style = style_of(tree, 14);
+  // R.m.s. turn between chords over half a feature, rad: of what makes a line look bent.
+  const auto bends = [&](const std::vector<Skeleton>& skeletons) {
+    const auto half = static_cast<std::size_t>(style.bending.extension / 2);
+    double squares = 0.0, count = 0.0;
+    for (const Skeleton& skeleton : skeletons) {
+      const Branch main = branch_tree(skeleton).branches.front();
+      std::vector<Vec2> points;
+      for (std::size_t i = 0; i < main.nodes.size(); i += half) points.push_back(skeleton[main.nodes[i]].xy());
+      for (const double turn : turning_angles(points)) squares += turn * turn, count += 1.0;
+    }
+    return std::sqrt(squares / count);
+  };
+  const Vec2 start(30, 150), end(660, 330), across = perpendicular(end - start).normalized();
+  std::vector<Skeleton> guided, free;
+  double far = 0.0, nodes = 0.0;
+  GrowOptions options;
+  options.levels = 1;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    GrowthTarget target = canvas(700, 500);
+    free.push_back(grow_from_style(style, target, options, Rng(seed), Monitor{}));
+    target.guide_paths = {{start, end}};
+    guided.push_back(grow_from_style(style, target, options, Rng(seed), Monitor{}));
+    for (const Node& node : guided.back().nodes()) far += std::abs((node.xy() - start).dot(across)), nodes += 1.0;
+  }
+  INFO("guided " << bends(guided) << " rad, free " << bends(free) << " rad; " << far / nodes << " px off");
+  CHECK(bends(guided) > 0.8 * bends(free));
+  CHECK(far / nodes < 2.0 * bend_amplitude(style.bending));
 }
 
 TEST_CASE("a ring painted in a mask is one line all the way round") {

@@ -11,6 +11,7 @@ constexpr int kShortList = 160;        // windows whose costly terms are looked 
 constexpr double kHeadingWeight = 2.0; // PICTURES 12.2-5
 constexpr double kWidthWeight = 1.0;   // per squared log ratio of radii
 constexpr int kHeadingReach = 6;       // extensions over which a chord is taken
+constexpr double kGuidedGain = 8.0;    // on omega_G along a course: 400, the most of ALGORITHMS 4.3
 constexpr double kReuse = 0.5;         // ALGORITHMS 4.2: Q (1 + uses)^-0.5
 constexpr double kVerbatimRun = 4.0;   // extensions copied in one piece before the next is made unlikely
 constexpr double kVerbatimLog = -1.386294361119890618;  // log 0.25
@@ -87,7 +88,9 @@ struct Scorer {
     }
     double gain = histogram_gain(bending.angles, state.angles, turns);
     if (state.options.radius_histogram) gain += histogram_gain(bending.radii, state.radii, widths);
-    const double exponent = state.options.histogram_weight * gain * state.angles.total / bending.extension;
+    // A course asks for straight windows all along: the exemplar's angles have to be asked for as loudly.
+    const double weight = (aim.guided ? kGuidedGain : 1.0) * state.options.histogram_weight;
+    const double exponent = weight * gain * state.angles.total / bending.extension;
     return state.options.raw_distance ? exponent : std::clamp(exponent, -3.0, 3.0);
   }
 

@@ -19,6 +19,7 @@ class Course {
 
   const std::vector<Vec2>& path() const { return path_; }
   double length() const { return arcs_.back(); }  // px
+  double width() const { return width_; }         // px, of the valley
   double value(const Vec2& point) const;          // G = 1 - exp(-distance^2 / width^2)
   // Px along the path, of the nearest place between two arcs: where the path comes back to itself, what lies far ahead is
   // not meant.

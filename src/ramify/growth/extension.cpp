@@ -14,6 +14,9 @@ namespace {
 
 constexpr int kBest = 24;              // candidates that are tested (PICTURES 12.2-8)
 constexpr double kEpsilon = 1e-3;      // of the paper's Q / (D + epsilon)
+constexpr double kValleyFloor = 0.3;   // of G: bends within the valley are all alike, else branches hug its middle
+constexpr double kPullAlong = 4.0;     // towards the place ahead on a course
+constexpr double kLookAhead = 3.0;     // extensions to that place: a nearer one would straighten the bends
 constexpr double kDensityFloor = 0.1;  // the same for mean densities (12.2-8: not separable from the maximum)
 
 bool wants_join(const GrowthState& state, const GrowingBranch& branch) {
@@ -44,9 +47,11 @@ class Stepper {
     }
     aim.count = std::clamp(static_cast<int>(std::lround(remaining / state_.style.step)), 1, m);
     if (guided_) {
-      const double ahead = state_.progress(branch) + 2.0 * aim.count * state_.style.step;
-      aim.toward = state_.courses[branch.followed].point_at(ahead);
-      aim.pull = 5.0;
+      const Course& course = state_.courses[branch.followed];
+      const double here = state_.progress(branch);
+      const double strayed = (branch.points.back() - course.point_at(here)).norm() / course.width();
+      aim.toward = course.point_at(here + kLookAhead * aim.count * state_.style.step);
+      aim.pull = kPullAlong * (1.0 + strayed * strayed);
     }
     const std::vector<Candidate> all = find_candidates(state_, number_, aim, 4 * kBest);
     if (all.empty()) return false;
@@ -138,18 +143,13 @@ class Stepper {
     return score + (guided_ ? guidance(extension) : 0.0);
   }
 
-  // Q / (G + epsilon), G over the extension only: a straight ray would leave a curved valley (ALGORITHMS 4.6). On the
-  // valley's floor G says nothing about the way, so the direction to a place ahead on the path is asked for as well.
+  // Q / (G + epsilon), G over the extension only: a straight ray would leave a curved valley (ALGORITHMS 4.6). Which
+  // way the valley goes is the candidates' affair.
   double guidance(const Extension& extension) const {
     const Course& course = state_.courses[self().followed];
     double sum = 0.0;
     for (const Vec2& point : extension.points) sum += course.value(point);
-    const Vec2 from = self().points.back();
-    const double ahead =
-        state_.progress(self()) + 2.0 * static_cast<double>(extension.points.size()) * state_.style.step;
-    const double wanted = angle_of(course.point_at(ahead) - from);
-    const double turn = 1.0 - std::cos(angle_of(extension.points.back() - from) - wanted);
-    return -std::log(sum / static_cast<double>(extension.points.size()) + kEpsilon) - 4.0 * turn;
+    return -std::log(sum / static_cast<double>(extension.points.size()) + kValleyFloor);
   }
 
   // The nearest place of a branch that is no relative, those ahead preferred.

@@ -119,7 +119,7 @@ std::vector<OptionField> describe(GrowOptions& options) {
       number("levels", options.levels, 0, 100, "",
              "How many orders may grow, 1 = main branches only; 0 = as many as come."),
       number("guide-width", options.guide_width, 0.0, 100000.0, "px",
-             "Width of the valley along a guide; 0 = 1.5 times the bends."),
+             "Width of the valley along a guide; 0 = 4 times the bends."),
       number("histogram-weight", options.histogram_weight, 0.0, 400.0, "",
              "Weight of histogram matching: omega_G of the paper."),
       number("candidates", options.candidates, 1, 24, "", "Draw every step among the best so many candidates."),

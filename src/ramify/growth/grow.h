@@ -42,7 +42,7 @@ struct GrowOptions {
   double tropism = -1.0;        // strength of the learnt absolute direction, 0..2; -1 = from the style
   double length = 1.0;          // total length relative to the exemplar's per area
   int levels = 0;               // how many orders may grow (1 = main branches only); 0 = as many as come
-  double guide_width = 0.0;     // px; 0 = 1.5 x the style's bend amplitude
+  double guide_width = 0.0;     // px; 0 = 4 x the style's bend amplitude
   double histogram_weight = 50.0;  // omega_G of the paper
   int candidates = 3;           // c: draw among the best c
   // Single departures back to the paper (ALGORITHMS 17); paper_exact sets all of them.

@@ -7,6 +7,7 @@
 namespace ramify {
 namespace {
 
+constexpr double kValley = 4.0;  // bend amplitudes: in 1.5 (ALGORITHMS 4.6) only bends within one feature find room
 constexpr double kJoin = 0.75;  // features from a drawn course within which another's end belongs to it
 
 // Where branches live in the exemplar, on a canvas of its kind; even where the user placed roots or drew a course.
@@ -61,7 +62,7 @@ GrowthState::GrowthState(const Style& style_, const GrowthTarget& target_, const
   const double canvas_area = static_cast<double>(target.size.width) * target.size.height;
   wanted_length = options.length * style.hierarchy.total_length * canvas_area / exemplar_area;
   if (ground.painted()) crowding = std::min(1.0, style.hierarchy.total_length / exemplar_area * spacing);
-  const double width = options.guide_width > 0.0 ? options.guide_width : 1.5 * bend_amplitude(style.bending);
+  const double width = options.guide_width > 0.0 ? options.guide_width : kValley * bend_amplitude(style.bending);
   for (const DrawnCourse& course : drawn) courses.emplace_back(course.path, width);
 }
 
