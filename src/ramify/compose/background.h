@@ -27,7 +27,7 @@ struct BackgroundPlan {
   // Bends of Vary: waves of the canvas, faded out near the frame, near landmarks and near what lies outside.
   struct Wave { Vec2 frequency = Vec2::Zero(), amplitude = Vec2::Zero(); double phase = 0.0; };
   std::array<Wave, 3> waves{};
-  WiderPlate wider;  // the plate, continued to wherever the canvas reaches beyond the photo
+  WiderPlate wider;  // the plate, continued to wherever the canvas reaches beyond the photo; empty where only growth is wanted
 
   // Where a landmark, root or outside shape of the photo lies on the canvas. px.
   Vec2 canvas_from_photo(const Vec2& photo, int photo_width) const;

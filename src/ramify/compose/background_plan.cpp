@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ramify/compose/background.h"
 #include "ramify/image/color.h"
@@ -99,6 +100,7 @@ Vec2 BackgroundPlan::photo_from_canvas(const Vec2& canvas_point, int photo_width
 }
 
 Vec2 BackgroundPlan::shown_at(const Vec2& photo) const {
+  if (wider.source.empty()) return photo;
   const Vec2 p = photo + Vec2(wider.left, wider.top);
   const Vec2 whole(std::round(p.x()), std::round(p.y()));
   return wider.source.clamped(static_cast<int>(whole.x()), static_cast<int>(whole.y())).cast<double>() + (p - whole);
@@ -165,18 +167,18 @@ double move_under(BackgroundPlan& plan, const Mask& closed, const ScalarImage& w
   constexpr int kPlaces = 24, kSamples = 64;
   const int stride = std::max(1, std::min(wanted.width(), wanted.height()) / kSamples);
   const auto lost = [&](const Vec2& shift) {
-    BackgroundPlan moved = plan;
-    moved.shift = shift;
+    const Vec2 before = std::exchange(plan.shift, shift);
     double all = 0.0, off = 0.0;
     for (int y = stride / 2; y < wanted.height(); y += stride) {
       for (int x = stride / 2; x < wanted.width(); x += stride) {
-        const Vec2 p = moved.beyond(moved.photo_from_canvas(Vec2(x, y), closed.width()), closed.size());
+        const Vec2 p = plan.shown_at(plan.photo_from_canvas(Vec2(x, y), closed.width()));
         const bool here =
             closed.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))) > 0;
         all += wanted(x, y);
         off += here ? wanted(x, y) : 0.0;
       }
     }
+    plan.shift = before;
     return all > 0.0 ? off / all : 0.0;
   };
   const Vec2 own = plan.shift;
