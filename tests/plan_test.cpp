@@ -31,6 +31,50 @@ int crossings(const PathForest& forest, const Lattice& lattice) {
   return edges - static_cast<int>(middles.size());
 }
 
+// Dijkstra over pairs with an ordered set, and the parent each node must have: of the neighbours that offer its label
+// the one with the lowest label, then the lowest index. Costs are exact in doubles.
+struct PairTwin {
+  std::vector<std::pair<double, double>> label;  // peak, sum
+  std::vector<int> parent;
+};
+
+PairTwin partial_twin(const Lattice& lattice, int source) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  PairTwin twin{std::vector<std::pair<double, double>>(static_cast<std::size_t>(lattice.count()), {kFar, kFar}),
+                std::vector<int>(static_cast<std::size_t>(lattice.count()), kNone)};
+  const int steps = static_cast<int>(lattice_steps(lattice.connectivity).size());
+  const auto for_each_offer = [&](int node, const auto& f) {
+    const auto [x, y, z] = node_place(lattice, node);
+    for (int k = 0; k < steps; ++k) {
+      const LatticeStep step = lattice_steps(lattice.connectivity)[k];
+      if (!lattice.contains(x + step.dx, y + step.dy, z + step.dz)) continue;
+      const double cost = edge_cost(lattice, node, k);
+      f(lattice.node(x + step.dx, y + step.dy, z + step.dz),
+        std::pair{std::max(twin.label[node].first, cost), twin.label[node].second + cost});
+    }
+  };
+  std::set<std::pair<std::pair<double, double>, int>> front{{{0.0, 0.0}, source}};
+  twin.label[source] = {0.0, 0.0};
+  while (!front.empty()) {
+    const int node = front.begin()->second;
+    front.erase(front.begin());
+    for_each_offer(node, [&](int to, const std::pair<double, double>& offered) {
+      if (offered >= twin.label[to]) return;
+      front.erase({twin.label[to], to});
+      twin.label[to] = offered;
+      front.insert({offered, to});
+    });
+  }
+  for (int node = 0; node < lattice.count(); ++node) {
+    for_each_offer(node, [&](int to, const std::pair<double, double>& offered) {
+      if (to == source || offered != twin.label[to]) return;
+      int& parent = twin.parent[to];
+      if (parent == kNone || std::pair{twin.label[node], node} < std::pair{twin.label[parent], parent}) parent = node;
+    });
+  }
+  return twin;
+}
+
 }  // namespace
 
 TEST_CASE("the sum of the edges on every path is the cost of its end") {
@@ -73,6 +117,40 @@ TEST_CASE("no node could be reached cheaper through a neighbour") {
         const double through = std::pow(std::pow(path_cost(plan, node), p) + std::pow(edge_cost(lattice, node, k), p), 1.0 / p);
         CHECK(path_cost(plan, to) <= through * (1.0 + 1e-5));
       }
+    }
+  }
+}
+
+TEST_CASE("the partial metric's labels and parents are those of a plain search") {
+  Rng rng(21);
+  for (int trial = 0; trial < 36; ++trial) {
+    Lattice lattice;
+    lattice.connectivity = trial % 2 ? Connectivity::Plane8 : Connectivity::Volume6;
+    lattice.width = 12 + rng.below(40);
+    lattice.height = 12 + rng.below(12);
+    lattice.depth = trial % 2 ? 1 : 5;
+    lattice.diagonal = DiagonalLength::None;
+    const int most = trial % 3 == 0   ? 3
+                     : trial % 3 == 1 ? 900
+                                      : 60000;  // few peaks, some, more than anything is sorted into
+    if (trial % 4 < 2) {
+      WholeWeights w(static_cast<std::size_t>(lattice.count()));
+      for (auto& v : w) v = static_cast<std::uint16_t>(1 + rng.below(most));
+      lattice.weights = std::move(w);
+    } else {
+      RealWeights w(static_cast<std::size_t>(lattice.count()));
+      for (auto& v : w) v = static_cast<float>(1 + rng.below(most)) / 64.0f;
+      lattice.weights = std::move(w);
+    }
+    PlanOptions options;
+    options.metric.metric = Metric::Partial;
+    const int source = random_node(lattice, rng);
+    const Plan plan = plan_paths(lattice, std::vector<int>{source}, options);
+    const PairTwin twin = partial_twin(lattice, source);
+    for (int node = 0; node < lattice.count(); ++node) {
+      REQUIRE(path_cost(plan, node) == twin.label[node].first);
+      REQUIRE(path_sum(plan, node) == twin.label[node].second);
+      REQUIRE(path_parent(plan, lattice, node) == twin.parent[node]);
     }
   }
 }

@@ -83,10 +83,6 @@ class RadixQueue {
     count_ -= batch_.size();
     return batch_;
   }
-  void swap_batch(std::vector<Item>& other) {
-    pop_batch();
-    other.swap(batch_);
-  }
   std::uint64_t horizon() const { return (static_cast<std::uint64_t>(last_) + 1) << shift_; }
   template <class F>
   void for_each_node(F&& f) const {
@@ -127,97 +123,6 @@ class RadixQueue {
   std::array<std::uint8_t, kDigits> values_{};      // and with which values
   std::array<std::vector<Item>, 1 + 8 * kDigits> buckets_;
   std::vector<Item> batch_;
-};
-
-// For keys (peak << 32 | sum) of searches that work off one peak after the other. What has the current peak lies in a ring
-// of buckets by its sum, as in BucketQueue; what has a higher one waits, sorted by nothing but the peak, and is sorted by
-// the sum when its peak's turn comes: such sums may lie anywhere. No sum pushed at the current peak may exceed the one
-// worked off by more than `widest`.
-class PairQueue {
- public:
-  using Key = std::uint64_t;
-  using Item = QueueItem<Key>;
-  PairQueue(std::uint32_t cheapest, std::uint32_t widest)
-      : shift_(std::bit_width(cheapest) - 1), mask_(std::max(64u, std::bit_ceil((widest >> shift_) + 2u)) - 1), ring_(mask_ + 1),
-        used_((mask_ + 1) / 64, 0) {}
-
-  void push(Key key, std::uint32_t node) {
-    if (!open_ || key >> 32 != peak_) {
-      waiting_.push(key, node);
-      return;
-    }
-    const std::uint32_t slot = bucket_of(key) & mask_;
-    ring_[slot].push_back({key, node});
-    used_[slot / 64] |= 1ull << (slot % 64);
-    ++count_;
-  }
-  bool empty() const { return count_ == 0 && next_ == sorted_.size() && waiting_.empty(); }
-  const std::vector<Item>& pop_batch() {
-    if (count_ == 0 && next_ == sorted_.size()) open_next_peak();
-    const std::uint32_t in_ring = count_ ? first_used() : kNever, in_list = next_ < sorted_.size() ? bucket_of(sorted_[next_].key) : kNever;
-    const std::uint32_t bucket = std::min(in_ring, in_list), slot = bucket & mask_;
-    batch_.clear();
-    if (in_ring == bucket) {
-      batch_.swap(ring_[slot]);
-      used_[slot / 64] &= ~(1ull << (slot % 64));
-      count_ -= batch_.size();
-    }
-    for (; next_ < sorted_.size() && bucket_of(sorted_[next_].key) == bucket; ++next_) batch_.push_back(sorted_[next_]);
-    at_ = bucket + 1;
-    return batch_;
-  }
-  // What probably comes next, to be brought near.
-  template <class F>
-  [[gnu::always_inline]] inline void preview(const F& f) const {
-    if (count_) {
-      for (const Item& item : ring_[first_used() & mask_]) f(item.node);
-    }
-    for (std::size_t i = next_; i < std::min(next_ + kAhead, sorted_.size()); ++i) f(sorted_[i].node);
-  }
-  std::uint64_t horizon() const { return (static_cast<std::uint64_t>(peak_) << 32) + (static_cast<std::uint64_t>(at_) << shift_); }
-  template <class F>
-  void for_each_node(F&& f) const {
-    waiting_.for_each_node(f);
-    for (std::size_t i = next_; i < sorted_.size(); ++i) f(sorted_[i].node);
-    for (const auto& bucket : ring_) {
-      for (const Item& item : bucket) f(item.node);
-    }
-  }
-
- private:
-  static constexpr std::size_t kAhead = 4;
-  static constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
-
-  std::uint32_t bucket_of(Key key) const { return static_cast<std::uint32_t>(key) >> shift_; }
-  void open_next_peak() {
-    waiting_.swap_batch(sorted_);
-    std::sort(sorted_.begin(), sorted_.end(), [](const Item& a, const Item& b) { return a.key < b.key; });
-    next_ = 0;
-    open_ = true;
-    peak_ = static_cast<std::uint32_t>(sorted_.front().key >> 32);
-    at_ = bucket_of(sorted_.front().key);
-  }
-  // The first bucket from at_ on that holds something.
-  std::uint32_t first_used() const {
-    const std::uint32_t start = at_ & mask_, words = (mask_ + 1) / 64;
-    std::uint32_t word = start / 64;
-    std::uint64_t bits = used_[word] & (~0ull << (start % 64));
-    while (bits == 0) {
-      word = (word + 1) % words;
-      bits = used_[word];
-    }
-    return at_ + ((word * 64 + std::countr_zero(bits) - start) & mask_);
-  }
-
-  int shift_;
-  std::uint32_t mask_;
-  bool open_ = false;
-  std::uint32_t peak_ = 0, at_ = 0;
-  std::size_t count_ = 0, next_ = 0;              // items in the ring; the next one of sorted_
-  std::vector<std::vector<Item>> ring_;
-  std::vector<std::uint64_t> used_;               // one bit a bucket
-  std::vector<Item> sorted_, batch_;
-  RadixQueue<Key> waiting_{32};
 };
 
 }  // namespace ramify

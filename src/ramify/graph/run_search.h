@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ramify/graph/labels.h"
+#include "ramify/graph/peak_queue.h"
 #include "ramify/graph/plan.h"
 
 namespace ramify {
@@ -64,7 +65,9 @@ SearchEnd run_pairs(const View& view, Plan& plan, typename View::Link* links, co
   if (plan.metric.metric == Metric::Partial) {
     const std::uint64_t limit = PartialLabels::key_of({kFar, tick_limit(ticks)});
     if (BucketQueue::size_for(task.bounds.cheapest, task.bounds.dearest) <= kMostBuckets) {
-      return run_from(view, labels, links, PairQueue(task.bounds.cheapest, task.bounds.dearest), task, limit, start, monitor);
+      return run_from(view, labels, links,
+                      PeakQueue<View>(view, plan.pair.data(), task.bounds.cheapest, task.bounds.dearest), task, limit,
+                      start, monitor);
     }
     return run_from(view, labels, links, std::move(queue), task, limit, start, monitor);
   }

@@ -89,7 +89,11 @@ SearchEnd search(const View& view, Labels& labels, typename View::Link* links, Q
           if (offered > limit) return;
           labels.set(to, label);
           links[to] = link;
-          queue.push(offered + Labels::lead(view, to), to);
+          if constexpr (requires { queue.push(offered, to, old); }) {
+            queue.push(offered + Labels::lead(view, to), to, old);
+          } else {
+            queue.push(offered + Labels::lead(view, to), to);
+          }
         } else if (old > key) {
           const std::uint32_t rival = view.parent(to, links[to]);
           const Key rival_key = labels.key(rival);
