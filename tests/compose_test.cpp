@@ -319,6 +319,40 @@ TEST_CASE("branches too wide for one disc are dressed bank by bank") {
   CHECK(dark_outside < 0.005 * inside);
 }
 
+TEST_CASE("a fork of thick branches is whole although the photo has only thin ones") {
+  // The photo: a river of 40 px with one creek, which forks into two. The canvas: the river forks into two rivers.
+  Skeleton river(Size{640, 420});
+  int parent = kNone, leave = kNone;
+  for (int x = 0; x < 640; x += 4) {
+    parent = river.append({Vec3(x, 120 + 18 * std::sin(x / 60.0), 0), 20.0, parent});
+    if (leave == kNone && x > 300) leave = parent;
+  }
+  add_line(river, river[leave].xy(), {330, 400}, 4.0, leave);
+  const int creek = river.count() - 30;  // a place on it
+  add_line(river, river[creek].xy(), river[creek].xy() + Vec2(110, 60), 3.0, creek);
+  Skeleton forked(Size{560, 420});
+  parent = leave = kNone;
+  for (int x = 0; x < 560; x += 4) {
+    parent = forked.append({Vec3(x, 150 - 12 * std::sin(x / 70.0), 0), 21.0, parent});
+    if (leave == kNone && x > 200) leave = parent;
+  }
+  add_line(forked, forked[leave].xy(), {330, 418}, 14.0, leave);
+  const Dressed d = dress(drawn_exemplar(river, 14), forked);
+  int core = 0, bare = 0, bright = 0;
+  for (int y = 0; y < 420; ++y) {
+    for (int x = 0; x < 560; ++x) {
+      const float radius = d.plan.field.radius(x, y), distance = d.plan.field.signed_distance(x, y);
+      if (distance > -std::max(1.5f, 0.2f * radius)) continue;
+      ++core;
+      bare += d.result.owner(x, y) == kNone;
+      bright += d.result.color(x, y).g > 0.33f;
+    }
+  }
+  CHECK(core > 15000);
+  CHECK(bare == 0);
+  CHECK(bright < 0.0005 * core);
+}
+
 TEST_CASE("blending fragment after fragment drifts unless free rims are held") {
   // Paper 002, figure 5: a photo whose brightness rises from left to right; each fragment takes the last one's colours.
   Exemplar exemplar = drawn_exemplar(wavy_skeleton({420, 160}, 3.0), 12);

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "ramify/compose/bend.h"
 #include "ramify/compose/candidate.h"
+#include "ramify/compose/coverage.h"
 #include "ramify/core/parallel.h"
 #include "ramify/image/color.h"
 #include "ramify/image/filter.h"
@@ -16,6 +18,13 @@ namespace {
 
 constexpr double kLowPassSigma = 25.0;  // px, the scale of tone (PICTURES 12.1-1)
 constexpr double kToneMargin = 3.0;     // px beside branches that do not count as surround
+constexpr double kMostTorn = 0.1;       // of a disc's branches, not shown as branch
+constexpr int kTries = 6;               // candidates that are looked at instead
+
+// Are placements judged once they are bent? The paper takes what it chose.
+bool is_judged(const PlacementOptions& o) {
+  return o.bend && !o.paper_greedy && !o.paper_warp;
+}
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -61,6 +70,7 @@ class Selection {
   }
 
   const SourceCandidate& chosen(int target) const { return candidates_[target][choice_[target]]; }
+  const std::vector<SourceCandidate>& candidates(int target) const { return candidates_[target]; }
 
  private:
   // Brings overlap differences to the size of shape costs: ratio of the medians over neighbouring best candidates.
@@ -169,6 +179,65 @@ Placement placement_of(const FragmentLibrary& library, const Fragment& target, i
   return p;
 }
 
+// The candidate in hand, or the next best one that does not tear the branch once it is bent; else the one that tears
+// least.
+Placement fitting_placement(const FragmentLibrary& library, const PlacementPlan& plan, int target,
+                            const SourceCandidate& first, const std::vector<SourceCandidate>& others,
+                            const PlacementOptions& options) {
+  const Fragment& fragment = plan.targets.fragments[target];
+  Placement best = placement_of(library, fragment, target, first, options);
+  if (!is_judged(options)) return best;
+  best.torn = measure_torn_share(library, plan, best);
+  int tries = kTries;
+  for (const SourceCandidate& c : others) {
+    if (best.torn <= kMostTorn || tries-- == 0) break;
+    Placement next = placement_of(library, fragment, target, c, options);
+    next.torn = measure_torn_share(library, plan, next);
+    if (next.torn < best.torn) best = std::move(next);
+  }
+  return best;
+}
+
+// Lays more discs, each from the source that suits it best.
+void lay_more(const CandidateContext& context, PlacementPlan& plan, const std::vector<Fragment>& discs,
+              const Monitor& monitor) {
+  const int first = static_cast<int>(plan.targets.fragments.size()), count = static_cast<int>(discs.size());
+  plan.targets.fragments.insert(plan.targets.fragments.end(), discs.begin(), discs.end());
+  std::vector<std::optional<Placement>> laid(discs.size());
+  parallel_for(count, [&](int i) {
+    monitor.check();
+    const std::vector<SourceCandidate> candidates = rank_candidates(context, discs[i], first + i);
+    if (candidates.empty()) return;
+    laid[i] = fitting_placement(context.library, plan, first + i, candidates.front(), candidates, context.options);
+  });
+  for (std::optional<Placement>& p : laid) {
+    if (p) plan.placements.push_back(std::move(*p));
+  }
+}
+
+// A furcation that the photo has nothing like goes without a disc of its own; what nothing shows then is covered by
+// discs along the branches.
+void mend_coverage(const CandidateContext& context, PlacementPlan& plan, const FragmentOptions& options,
+                   const Monitor& monitor) {
+  std::vector<Fragment> discs;
+  const auto add = [&](int curve, int vertex) {
+    const bool wide = options.wide_radius > 0.0 && plan.curves[curve].radii[vertex] >= options.wide_radius;
+    if (!wide) discs.push_back(along_fragment(plan.curves, curve, vertex, options));
+  };
+  const auto tears = [&](const Placement& p) {
+    return p.torn > kMostTorn && plan.targets.fragments[p.target].child != kNone;
+  };
+  for (const Placement& p : plan.placements) {
+    if (!tears(p)) continue;
+    const Fragment& f = plan.targets.fragments[p.target];
+    add(f.curve, f.vertex);
+    add(f.child, plan.curves[f.child].rim);
+  }
+  std::erase_if(plan.placements, tears);
+  lay_more(context, plan, discs, monitor);
+  lay_more(context, plan, cover_bare_places(context.library, plan, options), monitor);
+}
+
 }  // namespace
 
 std::vector<OptionField> describe(PlacementOptions& o) {
@@ -225,8 +294,9 @@ PlacementPlan place_fragments(const FragmentLibrary& library, const Skeleton& sk
   parallel_for(static_cast<int>(placed.size()), [&](int i) {
     monitor.check();
     const int t = placed[i];
-    plan.placements[i] = placement_of(library, plan.targets.fragments[t], t, selection.chosen(t), options);
+    plan.placements[i] = fitting_placement(library, plan, t, selection.chosen(t), selection.candidates(t), options);
   });
+  if (is_judged(options)) mend_coverage(context, plan, cover.fragment, monitor);
   monitor.report(1.0);
   return plan;
 }

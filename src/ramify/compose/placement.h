@@ -42,6 +42,7 @@ struct Placement {
   double scale = 1.0;             // canvas px per photo px; 1 unless the widths differ much
   double cost = 0.0;
   double disagreement = 0.0;      // 0..1, share of the disc where branch meets no branch
+  double torn = 0.0;              // 0..1, share of the target's own branches that are not shown (compose/coverage.h)
   Vec2 centre = Vec2::Zero();     // px on the canvas
   double radius = 0.0;            // px, of the disc on the canvas
   WarpGrid photo_from_canvas;     // bent map; covers the disc and 3 px around it
