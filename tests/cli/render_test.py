@@ -6,6 +6,7 @@ import unittest
 
 import numpy
 from PIL import Image
+from scipy import ndimage
 
 from harness import CliTest
 
@@ -114,6 +115,17 @@ class Render(CliTest):
         self.fails(3, "", "render", self.exemplar, self.path("none.swc", "# nothing\n"), "-o", out)
         self.fails(5, "", "render", self.exemplar, self.skeleton("big.json", 40.0), "-o", out, "--scale", "2", "--limit-pixels", "1e6")
         self.assertFalse(pathlib.Path(out).exists())
+
+    def test_masks_are_those_of_what_is_drawn(self):
+        """A root of 60 px is more than the photo's river has: the picture gets the photo's widths, and so must the mask."""
+        self.ok("synth", "builtin:river", "--size", "480x320", "--roots", "0,160,0,60", "-o", self.path("o.png"), "--mask", self.path("m.png"))
+        color = numpy.asarray(Image.open(self.path("o.png")).convert("RGB")).astype(int)
+        water = ndimage.binary_opening(color[..., 0] - color[..., 1] > 12)
+        inside = numpy.asarray(Image.open(self.path("m.png"))) >= 128
+        well_inside, well_outside = ndimage.binary_erosion(inside, iterations=3), ~ndimage.binary_dilation(inside, iterations=3)
+        self.assertGreater(well_inside.sum(), 3000)
+        self.assertLess((well_inside & ~water).sum(), 0.01 * inside.sum())
+        self.assertLess((well_outside & water).sum(), 0.01 * inside.sum())
 
     def test_hostile_numbers_end_with_an_error_or_a_picture(self):
         out = self.path("o.png")

@@ -22,7 +22,6 @@ struct ComposeOptions {
   CompositeMode composite = CompositeMode::Auto;
   BackgroundMode background = BackgroundMode::Auto;
   bool mirror = true;        // sources and background may be mirrored where light allows
-  bool fit_radii = true;     // radii outside the photo's range are mapped into it; false: the skeleton was fitted already
   double leave_out = 0.0;    // disc radii, 0 … 100; sources nearer than this to their own place are banned
   // Single departures back to the paper (ALGORITHMS 17); paper_exact sets all of them. They paste only.
   bool paper_spacing = false;  // source discs lambda-spaced, lambda = 0.75

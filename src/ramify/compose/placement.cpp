@@ -262,9 +262,8 @@ PlacementPlan place_fragments(const FragmentLibrary& library, const Skeleton& sk
                               const TargetOptions& target_options, const PlacementOptions& options, Rng rng,
                               const Monitor& monitor) {
   PlacementPlan plan;
-  plan.skeleton = options.fit_radii ? match_radii(skeleton, library) : skeleton;
-  plan.curves = branch_curves(plan.skeleton);
-  plan.field = measure_branch_field(plan.curves, plan.skeleton.size);
+  plan.curves = branch_curves(skeleton);
+  plan.field = measure_branch_field(plan.curves, skeleton.size);
   TargetOptions cover = target_options;
   cover.fragment = available_kinds(library, cover.fragment);
   plan.targets = cover_skeleton(plan.curves, plan.field, cover);

@@ -24,8 +24,7 @@ struct PlacementOptions {
   double reuse_weight = 0.02;    // for every use of a source or its neighbours
   int reuse_cap = 4;             // uses of one place of the photo
   double variation = 0.01;       // scale of the Gumbel noise added to every cost: another seed, another choice
-  double leave_out = 0.0;        // disc radii; sources nearer than this to the target's own or mirrored place are banned
-  bool fit_radii = true;         // ComposeOptions::fit_radii
+  double leave_out = 0.0;  // disc radii; sources nearer than this to the target's own or mirrored place are banned
   bool mirror = true;            // also try every source mirrored (never where light decides)
   bool paper_greedy = false;     // shape + summed overlap colour, random among the best `paper_best`
   int paper_best = 2;
@@ -49,13 +48,13 @@ struct Placement {
 };
 
 struct PlacementPlan {
-  Skeleton skeleton;               // as dressed: radii within what the photo has
   std::vector<BranchCurve> curves;
   BranchField field;               // of the canvas
   TargetSet targets;
   std::vector<Placement> placements;  // in the order of the targets; a target without any source has none
 };
 
+// The skeleton is dressed as it is. Its radii should be ones the photo has (match_radii).
 // background: the canvas without branches, for the low-pass colour term; empty = no such term.
 PlacementPlan place_fragments(const FragmentLibrary& library, const Skeleton& skeleton, const ColorImage& background,
                               const TargetOptions& target_options, const PlacementOptions& options, Rng rng,

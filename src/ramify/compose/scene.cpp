@@ -59,7 +59,6 @@ Composite compose_pasted(const Exemplar& exemplar, const ComposeScene& scene, co
   target.parent_first = options.paper_order || exact;
   if (target.fragment.paper_spacing) target.spacing = 0.75;
   PlacementOptions placement;
-  placement.fit_radii = options.fit_radii;
   placement.mirror = options.mirror;
   placement.leave_out = options.leave_out;
   placement.paper_greedy = options.paper_greedy || exact;
@@ -96,7 +95,7 @@ Composite compose_lit(const Exemplar& exemplar, const ComposeScene& scene, const
   light.brighter = measure_branch_look(exemplar.photo.color, scene.library).contrast > 0.0;
   ComposeOptions own = options;
   if (options.leave_out > 0.0) own.leave_out = options.leave_out * disc_radius(exemplar.unit_radius, FragmentOptions{});
-  return compose_light(light, exemplar.skeleton, options.fit_radii ? match_radii(skeleton, scene.library) : skeleton, scene.composite, own, rng.child("light"), monitor);
+  return compose_light(light, exemplar.skeleton, skeleton, scene.composite, own, rng.child("light"), monitor);
 }
 
 // Where no fragment lies the picture shows the background, and so does its provenance.

@@ -28,7 +28,8 @@ BackgroundPlan plan_scene_background(const Exemplar& exemplar, const ComposeScen
 // A map of the photo (255 or 0 per pixel) as it lies on the canvas; beyond the photo as the wider plate has it.
 Mask on_canvas(const Mask& photo_map, const BackgroundPlan& plan);
 
-// The skeleton lies on plan.canvas. Throws InputError when the exemplar offers no fragment for it.
+// The skeleton lies on plan.canvas and is dressed with its own radii (match_radii brings any to those the photo has),
+// so that its mask is the picture's. Throws InputError when the exemplar offers no fragment for it.
 Composite compose_image(const Exemplar& exemplar, const ComposeScene& scene, const BackgroundPlan& plan,
                         const Skeleton& skeleton, const ComposeOptions& options, Rng rng, const Monitor& monitor);
 

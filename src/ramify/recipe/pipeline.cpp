@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "ramify/compose/placement.h"
 #include "ramify/core/atomic_file.h"
 #include "ramify/core/parallel.h"
 #include "ramify/core/version.h"
@@ -250,7 +251,6 @@ LoadedRequest load_request(const PictureRequest& request, const Monitor& monitor
     const bool held = !request.options.size.empty();
     loaded.skeleton = fit_skeleton(std::move(*loaded.skeleton), loaded.source.exemplar.skeleton, request.options.fit, held, monitor);
     size = loaded.skeleton->size;
-    loaded.request.options.compose.fit_radii = false;
   }
   check_canvas(size, request.limits);
   loaded.target.size = size;
@@ -288,6 +288,8 @@ Picture make_picture(const LoadedRequest& loaded, std::uint64_t seed, const Moni
   } else {
     picture.skeleton = grow_on_plan(loaded, plan, rng.child("grow"), monitor.stage("grow", 0.0, 0.1));
   }
+  // What is told and masked is what is drawn: widths are fitted here, not in the compositor.
+  if (picture_wanted && !loaded.skeleton) picture.skeleton = match_radii(picture.skeleton, loaded.scene.library);
   if (picture_wanted) {
     picture.composite = compose_image(exemplar, loaded.scene, plan, picture.skeleton, options.compose, rng.child("compose"),
                                       monitor.stage("compose", 0.1, 0.95));
