@@ -45,12 +45,12 @@ Skeleton imitate(std::uint64_t seed) {
   target.lattice.weights = HashedWeights{seed, 1.0, 40.0, false};
   target.generators = {target.lattice.node(250, 250)};
   DendriteOptions options;
-  options.endpoints = 6;
-  options.distance = 130.0;
-  options.attenuation = 1.9;
-  options.branching = 2.8;
-  options.rounds = 7;
-  options.spacing = 0.15;
+  options.placement = EndpointPlacement::Aggregate;
+  options.endpoints = 20000;
+  options.distance = 5.0;
+  options.attenuation = 2.0;
+  options.branching = 3.0;
+  options.rounds = 2;
   return dendrite_skeleton(grow_dendrite(std::move(target), options, Rng(seed), {}), 1.0, {});
 }
 

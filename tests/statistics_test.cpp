@@ -80,6 +80,31 @@ TEST_CASE("a filled square has box dimension two") {
   CHECK(box_dimension(s) == Approx(2.0).margin(0.02));
 }
 
+TEST_CASE("Koch's curve and Sierpinski's triangle have their box dimensions") {
+  std::vector<Vec2> line{{60.0, 300.0}, {60.0 + 729.0, 300.0}};
+  for (int level = 0; level < 5; ++level) {
+    std::vector<Vec2> finer;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      const Vec2 a = line[i], third = (line[i + 1] - a) / 3.0, up(third.y(), -third.x());
+      finer.insert(finer.end(), {a, a + third, a + 1.5 * third + std::sqrt(0.75) * up, a + 2.0 * third});
+    }
+    finer.push_back(line.back());
+    line = finer;
+  }
+  Skeleton koch({850, 350});
+  for (std::size_t i = 0; i < line.size(); ++i)
+    koch.append({Vec3(line[i].x(), line[i].y(), 0), 1.0, static_cast<int>(i) - 1});
+  CHECK(box_dimension(koch) == Approx(std::log(4.0) / std::log(3.0)).margin(0.04));
+
+  Skeleton sierpinski({512, 512});  // Pascal's triangle modulo 2
+  for (int y = 0; y < 512; ++y) {
+    for (int x = 0; x < 512; ++x) {
+      if ((x & y) == 0) sierpinski.append({Vec3(x, y, 0), 0.5});
+    }
+  }
+  CHECK(box_dimension(sierpinski) == Approx(std::log(3.0) / std::log(2.0)).margin(0.02));
+}
+
 TEST_CASE("distances between distributions have their closed forms") {
   std::vector<double> a, b;
   for (int i = 0; i < 1000; ++i) a.push_back(i / 1000.0), b.push_back(i / 1000.0 + 0.25);

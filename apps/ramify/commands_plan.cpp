@@ -22,7 +22,7 @@ const std::vector<Preset>& dendrite_presets() {
   static const std::vector<Preset> presets{
       {"simple", "sixty paths to the middle", {{"count-endpoints", "60"}}},
       {"fractal", "frost: ever more, ever shorter paths", {{"count-endpoints", "9"}, {"distance", "120"}, {"attenuation", "1.6"}, {"branching", "2.3"}, {"rounds", "7"}, {"taper", "0.24"}}},
-      {"dla", "imitates diffusion-limited aggregation", {{"count-endpoints", "6"}, {"distance", "130"}, {"attenuation", "1.9"}, {"branching", "2.8"}, {"rounds", "7"}, {"roughness", "40"}, {"spacing", "0.15"}, {"taper", "0"}}},
+      {"dla", "imitates diffusion-limited aggregation", {{"placement", "aggregate"}, {"count-endpoints", "20000"}, {"distance", "5"}, {"attenuation", "2"}, {"branching", "3"}, {"rounds", "2"}, {"roughness", "40"}, {"taper", "0"}}},
       {"lightning", "strokes to the ground, side strokes below them", {{"placement", "lightning"}, {"count-endpoints", "3"}, {"branching", "12"}, {"rounds", "3"}, {"roughness", "14"}, {"upward", "3"}, {"sideways", "1.5"}, {"taper", "0.33"}}},
       {"moss", "hairs on the ground or on --generator", {{"placement", "moss"}, {"count-endpoints", "1500"}, {"distance", "60"}, {"spacing", "2"}, {"roughness", "4"}, {"taper", "0.15"}}},
       {"winding", "long detours around whatever is dear", {{"metric", "partial"}, {"count-endpoints", "120"}}},

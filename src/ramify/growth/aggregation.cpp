@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ramify/core/error.h"
+#include "ramify/growth/far_walker.h"
 #include "ramify/growth/planned_skeleton.h"
 #include "ramify/image/image.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 constexpr int kDx[4] = {1, -1, 0, 0}, kDy[4] = {0, 0, 1, -1};
 constexpr double kAway = 4.0;  // px beyond the farthest node: the launching circle
-constexpr double kKill = 8.0;  // times the launching circle: the killing circle
+constexpr double kBack = 2.0;  // times the launching circle: from there walkers return to it in one draw
 
 // Four steps out of every byte of a draw.
 class Steps {
@@ -126,9 +127,10 @@ class Aggregation {
         continue;
       }
       const double distance = std::sqrt(squared);
-      if (distance > kKill * launch) {
-        x = cx, y = cy;
-        leap(launch);
+      if (distance > kBack * launch) {
+        const Vec2 back = return_to_circle(Vec2(dx, dy), launch, rng_);
+        x = cx + static_cast<int>(std::lround(back.x()));
+        y = cy + static_cast<int>(std::lround(back.y()));
       } else {
         leap(distance - farthest_ - 2.0);
       }

@@ -15,8 +15,8 @@
 namespace ramify {
 
 // Where walkers start. AnyNode: at any free node of the canvas, whose walls throw them back; the naive way, slow while
-// little is there. Circle: around what is there, just outside; who strays leaps as far as nothing can be met, and is
-// launched again beyond a killing circle. In an open plane the latter is exact but for the killing.
+// little is there. Circle: around what is there, just outside; who strays leaps as far as nothing can be met, and comes
+// back from far away in one draw (far_walker.h), so nobody is lost: exact in an open plane but for the lattice.
 enum class WalkerLaunch { AnyNode, Circle };
 
 struct AggregationOptions {

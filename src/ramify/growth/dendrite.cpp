@@ -10,6 +10,7 @@
 #include "ramify/core/error.h"
 #include "ramify/graph/second_nearest.h"
 #include "ramify/growth/endpoint_placement.h"
+#include "ramify/growth/far_walker.h"
 #include "ramify/growth/path_refinement.h"
 #include "ramify/skeleton/edit.h"
 
@@ -18,16 +19,22 @@ namespace ramify {
 std::vector<OptionField> describe(DendriteOptions& o) {
   std::vector<OptionField> out = describe(o.metric);
   const std::vector<OptionField> own{
-      choice("placement", o.placement, {"scatter", "lightning", "moss"}, "Where endpoints lie: scattered, at the bottom and below the strokes, or above the generator."),
+      choice("placement", o.placement, {"scatter", "lightning", "moss", "aggregate"},
+             "Where endpoints lie: scattered, at the bottom and below the strokes, above the generator, or first where "
+             "walkers from far away come within the distance."),
       number("count-endpoints", o.endpoints, 1, 10000000, "", "Endpoints of the first round: m of the paper."),
-      number("distance", o.distance, 0.0, 1e6, "nodes", "How far from the structure the first round's endpoints lie; 0 = anywhere."),
+      number("distance", o.distance, 0.0, 1e6, "nodes",
+             "How far from the structure the first round's endpoints lie; 0 = anywhere."),
       number("attenuation", o.attenuation, 1.01, 100.0, "", "The distance is divided by it every round: alpha."),
-      number("branching", o.branching, 1.0, 100.0, "", "The number of endpoints is multiplied by it every round: beta."),
+      number("branching", o.branching, 1.0, 100.0, "",
+             "The number of endpoints is multiplied by it every round: beta."),
       number("rounds", o.rounds, 1, 1000, "", "At most so many rounds; more than one makes it fractal."),
       number("smallest", o.smallest, 0.5, 1e6, "nodes", "No round places endpoints nearer than this: epsilon."),
       number("spacing", o.spacing, 0.0, 10.0, "", "Endpoints of a round keep this share of its distance between them."),
       number("refine", o.refine, 1, 64, "", "Plan again among n x n nodes for every node of the dendrite; 1 = not."),
-      flag("refine-each", o.refine_each, "Refine every path by itself, as the paper does: paths part and meet more often; where two would cross, they join."),
+      flag("refine-each", o.refine_each,
+           "Refine every path by itself, as the paper does: paths part and meet more often; where two would cross, "
+           "they join."),
   };
   out.insert(out.end(), own.begin(), own.end());
   return out;
@@ -59,6 +66,10 @@ double cost_per_node(const Lattice& lattice) {
 
 namespace {
 
+constexpr double kBatch =
+    0.03;  // of the endpoints there are: so many walkers come before distances are brought up to date
+constexpr double kSight = 3.0;  // distances from the structure within which walkers know how far it is
+
 class DendriteGrower {
  public:
   DendriteGrower(DendriteTarget target, const DendriteOptions& options, Rng rng, const Monitor& monitor)
@@ -77,11 +88,14 @@ class DendriteGrower {
     for (int round = 0; round < options_.rounds && (round == 0 || distance >= options_.smallest); ++round) {
       monitor_.report(static_cast<double>(round) / options_.rounds);
       const std::size_t before = structure_.forest.nodes.size();
-      connect(choose(round, static_cast<int>(std::lround(count)), distance), round);
-      count = std::min(1e7, count * options_.branching);
+      if (round == 0 && walked())
+        rounds_.push_back(connect_from_afar(distance));
+      else
+        rounds_.push_back(connect(choose(round, static_cast<int>(std::lround(count)), distance), round));
+      count = std::min(1e7, (walked() ? rounds_.back() : count) * options_.branching);
       distance /= options_.attenuation;
       if (!target_.endpoints.empty() || round + 1 == options_.rounds || distance < options_.smallest) break;
-      near_ = reseeded(std::move(near_), target_.lattice, nodes_from(before), reach(round + 1, distance), monitor_);
+      look_anew(nodes_from(before), reach(round + 1, distance));
     }
     return {std::move(target_.lattice), std::move(structure_), 1, rounds_};
   }
@@ -89,6 +103,7 @@ class DendriteGrower {
  private:
   // How dear a node may be that still matters in a round.
   double reach(int round, double distance) const {
+    if (walked()) return (round == 0 ? kSight : 1.0) * distance * cost_per_node_;
     const bool anywhere = options_.placement != EndpointPlacement::Scatter || !target_.endpoints.empty() || (round == 0 && options_.distance <= 0.0);
     return anywhere ? std::numeric_limits<double>::infinity() : distance * cost_per_node_;
   }
@@ -98,6 +113,12 @@ class DendriteGrower {
     plan.max_cost = max_cost;
     near_ = plan_paths(target_.lattice, target_.generators, plan, monitor_);
   }
+
+  void look_anew(const std::vector<int>& nodes, double max_cost) {
+    near_ = reseeded(std::move(near_), target_.lattice, nodes, max_cost, monitor_);
+  }
+
+  bool walked() const { return options_.placement == EndpointPlacement::Aggregate && target_.endpoints.empty(); }
 
   std::vector<int> nodes_from(std::size_t first) const {
     const std::vector<int>& nodes = structure_.forest.nodes;
@@ -151,17 +172,65 @@ class DendriteGrower {
     return out;
   }
 
-  void connect(const std::vector<int>& endpoints, int round) {
+  int connect(const std::vector<int>& endpoints, int round) {
+    if (endpoints.empty()) return 0;
+    if (options_.metric.metric == Metric::Sum) return add_paths(near_, endpoints, round);
+    PlanOptions plan;
+    plan.metric = options_.metric;
+    plan.endpoints = endpoints;
+    return add_paths(plan_paths(target_.lattice, sources(), plan, monitor_), endpoints, round);
+  }
+
+  Vec2 place_of(int node) const { return {node % target_.lattice.width, node / target_.lattice.width}; }
+
+  // Walkers from far away, a few at a time: each ends where it first comes within the distance of what is there, so the
+  // structure grows at its tips, and its fjords are screened. Ends at the canvas's edge.
+  int connect_from_afar(double distance) {
+    Rng rng = rng_.child("walkers");
+    FarWalk walk;
+    for (const int node : target_.generators)
+      walk.middle += place_of(node) / static_cast<double>(target_.generators.size());
+    walk.near = distance;
+    double extent = 0.0;
+    bool at_edge = false;
+    const auto take_in = [&](const std::vector<int>& nodes) {
+      for (const int node : nodes) {
+        const Vec2 place = place_of(node);
+        extent = std::max(extent, (place - walk.middle).norm());
+        at_edge = at_edge || std::min(place.x(), place.y()) < distance ||
+                  place.x() >= target_.lattice.width - distance || place.y() >= target_.lattice.height - distance;
+      }
+      walk.radius = extent + 2.0 * distance;
+    };
+    take_in(target_.generators);
+    const auto free_way = [&](const Vec2& place) {
+      const int x = static_cast<int>(std::lround(place.x())), y = static_cast<int>(std::lround(place.y()));
+      if (!target_.lattice.contains(x, y)) return std::max(2.0 * distance, (place - walk.middle).norm() - extent);
+      const int node = target_.lattice.node(x, y);
+      return is_reached(near_, node) ? path_sum(near_, node) / cost_per_node_ : kSight * distance;
+    };
     int placed = 0;
-    if (options_.metric.metric == Metric::Sum) {
-      placed = add_paths(near_, endpoints, round);
-    } else if (!endpoints.empty()) {
-      PlanOptions plan;
-      plan.metric = options_.metric;
-      plan.endpoints = endpoints;
-      placed = add_paths(plan_paths(target_.lattice, sources(), plan, monitor_), endpoints, round);
+    at_edge = false;
+    while (placed < options_.endpoints && !at_edge) {
+      monitor_.report(static_cast<double>(placed) / options_.endpoints);
+      std::vector<int> endpoints;
+      for (int left = std::min(options_.endpoints - placed, 1 + static_cast<int>(kBatch * placed)); left > 0; --left) {
+        monitor_.check();
+        const std::optional<Vec2> place = walk_from_far(walk, free_way, rng);
+        if (place) endpoints.push_back(node_at(target_.lattice, Vec3(place->x(), place->y(), 0.0)));
+      }
+      const std::size_t before = structure_.forest.nodes.size();
+      const int added = connect(endpoints, 0);
+      if (added == 0) break;
+      placed += added;
+      const std::vector<int> grown = nodes_from(before);
+      take_in(grown);
+      look_anew(grown, kSight * distance * cost_per_node_);
     }
-    rounds_.push_back(placed);
+    if (at_edge)
+      monitor_.note("the structure reached the canvas's edge after " + std::to_string(placed) + " of " +
+                    std::to_string(options_.endpoints) + " endpoints");
+    return placed;
   }
 
   int add_paths(const Plan& plan, const std::vector<int>& endpoints, int round) {

@@ -21,6 +21,7 @@ enum class EndpointPlacement {
   Scatter,    // anywhere, or at the round's distance from the structure
   Lightning,  // first along the bottom of the canvas, then below the strokes there are
   Moss,       // above the structure
+  Aggregate   // first where walkers from far away come within the distance, as in aggregation; then scattered
 };
 
 struct DendriteTarget {
