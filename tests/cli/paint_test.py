@@ -4,6 +4,7 @@ import io
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import unittest
 import xml.etree.ElementTree as ET
@@ -66,11 +67,22 @@ class Paint(CliTest):
 
     def test_light_in_svg_is_the_light_in_pixels_to_the_eye(self):
         svg, png = self.path("a.svg"), self.path("a.png")
-        for out in (svg, png):
-            self.ok("paint", self.tree, "-o", out, "--preset", "lightning")
-        ours = numpy.asarray(Image.open(png).convert("RGB"), float) / 255
-        theirs = over(rendered(svg), 0.0)
-        self.assertGreater(numpy.corrcoef(ours.mean(axis=2).ravel(), theirs.mean(axis=2).ravel())[0, 1], 0.9)
+        for preset in ("lightning", "ember", "aurora"):
+            for background in ([], ["--background", "none"]):
+                for out in (svg, png):
+                    self.ok("paint", self.tree, "-o", out, "--preset", preset, *background)
+                ours = over(numpy.asarray(Image.open(png).convert("RGBA"), float) / 255, 0.0)
+                theirs = over(rendered(svg), 0.0)
+                self.assertLess(numpy.abs(ours - theirs).mean(), 0.07, (preset, background))
+                self.assertGreater(numpy.corrcoef(ours.mean(axis=2).ravel(), theirs.mean(axis=2).ravel())[0, 1], 0.97, (preset, background))
+
+    @unittest.skipUnless(shutil.which("inkscape"), "Inkscape is not installed")
+    def test_inkscape_opens_what_we_paint(self):
+        svg, png = self.path("a.svg"), self.path("a.png")
+        self.ok("paint", self.tree, "-o", svg, "--preset", "lightning")
+        done = subprocess.run(["inkscape", svg, "--export-type=png", "-o", png], capture_output=True, check=True)
+        theirs = numpy.asarray(Image.open(png).convert("RGB"), float) / 255
+        self.assertLess(numpy.abs(theirs - over(rendered(svg), 0.0)).mean(), 0.03, done.stderr)
 
     def test_svg_has_inkscape_layers_and_few_nodes(self):
         svg = self.path("a.svg")

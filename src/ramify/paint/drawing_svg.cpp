@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "ramify/core/options.h"
+#include "ramify/image/color.h"
 #include "ramify/paint/drawing.h"
+#include "ramify/paint/exposure.h"
 
 namespace ramify {
 namespace {
@@ -61,28 +62,78 @@ std::string path_element(const Shape& shape, bool own_color) {
   return out + " d=\"" + path.text + "\"/>\n";
 }
 
-std::string blur_id(double sigma) {
-  std::string id = "blur" + number_text(std::round(sigma * 100.0) / 100.0);
-  std::replace(id.begin(), id.end(), '.', '_');
-  return id;
+float brightest(const Rgb& color) {
+  return linear_from_srgb(std::max({color.r, color.g, color.b}));
+}
+
+// Light in a file: how strong a layer's brightest light is, and its shapes as strong as that at most. What blur leaves
+// of it in the opacity is made as bright as it looks by the layer's filter; the colour keeps the hue of faint light.
+double peak_light(const Layer& layer) {
+  double peak = 0.0;
+  for (const Shape& shape : layer.shapes) peak = std::max(peak, shape.opacity * brightest(shape.color));
+  return peak;
+}
+
+Shape glowing(const Shape& shape, double peak) {
+  Shape out = shape;
+  const float most = brightest(shape.color);
+  for (int k = 0; k < 3; ++k)
+    out.color[k] = most > 0.0f ? srgb_from_linear(linear_from_srgb(shape.color[k]) / most) : 0.0f;
+  out.opacity = peak > 0.0 ? shape.opacity * most / peak : 0.0;
+  return out;
+}
+
+// A shape that is not blurred is as bright as it looks by itself.
+Shape shining(const Shape& shape) {
+  Shape out = shape;
+  const float strength = static_cast<float>(shape.opacity);
+  Rgb seen;
+  for (int k = 0; k < 3; ++k) seen[k] = srgb_from_linear(exposed(strength * linear_from_srgb(shape.color[k])));
+  const float most = std::max({seen.r, seen.g, seen.b});
+  out.color = most > 0.0f ? (1.0f / most) * seen : seen;
+  out.opacity = most;
+  return out;
+}
+
+std::string light_id(std::size_t layer) {
+  return "light" + std::to_string(layer + 1);
+}
+
+// Opacity 0..1 stands for light 0..peak. Its root first, so that the table is fine where light is faint. Where shapes
+// of a layer overlap, or layers, SVG adds more than light does; the exponent takes that back (found on four palettes,
+// one bolt).
+std::string exposure_table(double peak) {
+  constexpr int kSteps = 32;
+  std::string out;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double root = static_cast<double>(i) / kSteps;
+    const float seen = std::pow(srgb_from_linear(exposed(static_cast<float>(peak * root * root))), 1.3f);
+    out += (i > 0 ? " " : "") + number_text(std::round(1e4 * seen) / 1e4);
+  }
+  return out;
 }
 
 std::string definitions(const Drawing& drawing) {
-  std::set<double> sigmas;
-  for (const Layer& layer : drawing.layers) {
-    if (layer.blur > 0.0) sigmas.insert(layer.blur);
-  }
-  if (sigmas.empty()) return "";
-  std::string out = "<defs>\n";
-  for (const double sigma : sigmas) {
-    out += "<filter id=\"" + blur_id(sigma) + "\" filterUnits=\"userSpaceOnUse\" x=\"0\" y=\"0\" width=\"" +
+  std::string out;
+  for (std::size_t i = 0; i < drawing.layers.size(); ++i) {
+    const Layer& layer = drawing.layers[i];
+    if (layer.blur <= 0.0) continue;
+    out += "<filter id=\"" + light_id(i) +
+           "\" filterUnits=\"userSpaceOnUse\" color-interpolation-filters=\"sRGB\" x=\"0\" y=\"0\" width=\"" +
            std::to_string(drawing.size.width) + "\" height=\"" + std::to_string(drawing.size.height) +
-           "\"><feGaussianBlur stdDeviation=\"" + number_text(std::round(sigma * 100.0) / 100.0) + "\"/></filter>\n";
+           "\"><feGaussianBlur stdDeviation=\"" + number_text(std::round(layer.blur * 100.0) / 100.0) +
+           "\"/><feComponentTransfer><feFuncA type=\"gamma\" "
+           "exponent=\"0.5\"/></feComponentTransfer><feComponentTransfer><feFuncA type=\"table\" tableValues=\"" +
+           exposure_table(peak_light(layer)) + "\"/></feComponentTransfer></filter>\n";
   }
-  return out + "</defs>\n";
+  return out.empty() ? "" : "<defs>\n" + out + "</defs>\n";
 }
 
-std::string layer_group(const Layer& layer, int index) {
+std::string layer_group(Layer layer, std::size_t index) {
+  if (layer.blend == Blend::Add) {
+    const double peak = peak_light(layer);
+    for (Shape& shape : layer.shapes) shape = layer.blur > 0.0 ? glowing(shape, peak) : shining(shape);
+  }
   const bool one_color = std::all_of(layer.shapes.begin(), layer.shapes.end(),
                                      [&](const Shape& shape) { return shape.color == layer.shapes.front().color; });
   std::string out = "<g id=\"layer" + std::to_string(index + 1) + "\" inkscape:groupmode=\"layer\" inkscape:label=\"" +
@@ -90,7 +141,7 @@ std::string layer_group(const Layer& layer, int index) {
   if (one_color && !layer.shapes.empty()) out += " fill=\"" + hex_color(layer.shapes.front().color) + "\"";
   if (layer.blend == Blend::Add) out += " style=\"mix-blend-mode:screen\"";
   if (layer.opacity < 1.0) out += " opacity=\"" + number_text(std::round(1000.0 * layer.opacity) / 1000.0) + "\"";
-  if (layer.blur > 0.0) out += " filter=\"url(#" + blur_id(layer.blur) + ")\"";
+  if (layer.blur > 0.0) out += " filter=\"url(#" + light_id(index) + ")\"";
   out += ">\n";
   for (const Shape& shape : layer.shapes) out += path_element(shape, !one_color);
   return out + "</g>\n";
@@ -135,7 +186,7 @@ std::string drawing_svg(const Drawing& drawing, double scale, const std::string&
     out += "<g id=\"background\" inkscape:groupmode=\"layer\" inkscape:label=\"background\"><rect width=\"" + w +
            "\" height=\"" + h + "\" fill=\"" + hex_color(*drawing.background) + "\"/></g>\n";
   }
-  for (std::size_t i = 0; i < drawing.layers.size(); ++i) out += layer_group(drawing.layers[i], static_cast<int>(i));
+  for (std::size_t i = 0; i < drawing.layers.size(); ++i) out += layer_group(drawing.layers[i], i);
   return out + "</svg>\n";
 }
 

@@ -13,13 +13,13 @@
 #include "ramify/image/color.h"
 #include "ramify/image/filter.h"
 #include "ramify/paint/drawing.h"
+#include "ramify/paint/exposure.h"
 
 namespace ramify {
 namespace {
 
 constexpr int kBand = 128;        // rows drawn at a time; independent of the number of threads
 constexpr int kMostSide = 32767;  // px, cairo's own limit
-constexpr float kExposure = 3.0f; // light of strength 1 is all but white, as in a photo of lightning
 
 struct Box {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // px, x1 and y1 beyond the last
@@ -177,7 +177,7 @@ Rgb lit(const Rgb& color, const Rgb& light) {
   Rgb out;
   for (int k = 0; k < 3; ++k) {
     const float base = std::clamp(linear_from_srgb(color[k]), 0.0f, 1.0f);
-    out[k] = srgb_from_linear(1.0f - (1.0f - base) * std::exp(-kExposure * std::max(0.0f, light[k])));
+    out[k] = srgb_from_linear(base + (1.0f - base) * exposed(std::max(0.0f, light[k])));
   }
   return out;
 }
