@@ -326,6 +326,23 @@ TEST_CASE("sources near home can be banned") {
   CHECK(quantile(differences(out.color, scene.photo, distance_to_lines(own), 0.0, 6.0), 0.5) < 4.0);
 }
 
+TEST_CASE("a stroke touches its parent though the parent's light is narrower than its width") {
+  // The photo's trunk is 7 px wide; drawn twice as wide at most, it cannot fill a new one of 18 px.
+  const Bolt bolt = make_bolt();
+  const Skeleton target = tree(1.0, 9.0, 1.8);
+  const Composite out = compose_light(bolt.scene, bolt.skeleton, target, CompositeMode::Emit, {}, Rng(8), {});
+  const std::vector<Strand> strands = make_strands(target);
+  for (std::size_t k = 1; k < strands.size(); ++k) {
+    std::vector<double> light;  // along the child, from the parent's centre line on
+    for (int t = 0; t < 45; ++t) {
+      const Vec2 p = strands[k].points[t];
+      light.push_back(luma(sample_bilinear(out.color, p)) - luma(sample_bilinear(bolt.scene.background, p)));
+    }
+    const double usual = quantile({light.begin() + 20, light.end()}, 0.5);
+    CHECK(*std::min_element(light.begin(), light.begin() + 20) > 0.6 * usual);
+  }
+}
+
 TEST_CASE("what stands in front hides the light") {
   Bolt bolt = make_bolt();
   bolt.scene.front = Mask(kCanvas, 0);

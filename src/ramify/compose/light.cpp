@@ -143,6 +143,7 @@ Composite compose_light(const LightScene& scene, const Skeleton& exemplar, const
   const LightSource source = make_light_source(own, layer, scene.shadow, scene.unusable, rules);
   std::vector<Strand> targets = make_strands(target);
   close_hidden_ends(targets, scene.front);
+  begin_inside_parents(targets);
   assign_levels(targets, source, rules.tip_fade, rng);
   monitor.report(0.2);
   WovenLight woven = weave_light(source, layer, targets, scene.background.size(), rules, options.leave_out, rng,

@@ -15,6 +15,7 @@ constexpr double kPositionSigma =
     4.0;  // px; the source's and the target's zigzag are smoothed alike, and copies bring finer bends along
 constexpr double kRadiusSigma = 4.0;   // px
 constexpr int kRadiusMedian = 6;       // samples on both sides: a width that jumps up and back is a measuring fault
+constexpr double kThinChild = 0.4;     // of the parent's radius
 constexpr double kFold = 0.45;         // chord / arc below which a stretch folds back on itself
 constexpr double kFrameMargin = 8.0;   // px
 constexpr double kLeastSlender = 3.0;  // a strand is at least so many times longer than its half width
@@ -114,7 +115,7 @@ void cut_at_rim(Strand& child, const Strand& parent) {
   }
   const int outside = std::min(k + static_cast<int>(1.5 * child.radii[k]) + 3, child.count() - 1);
   for (int t = 0; t < outside; ++t) child.radii[t] = std::min(child.radii[t], 1.15 * child.radii[outside]);
-  const bool thick = child.radii[k] > 0.4 * rim;
+  const bool thick = child.radii[k] > kThinChild * rim;
   child.first = thick ? k / 4 : k;
   child.behind = (child.points[child.first] - child.points.front()).norm() + 0.5 * rim;
 }
@@ -217,6 +218,17 @@ std::vector<Strand> make_strands(const Skeleton& skeleton) {
     s.open_end = !at_frame(end, skeleton.size) && !touches_other(strands, k, end, s.radii.back());
   });
   return strands;
+}
+
+void begin_inside_parents(std::vector<Strand>& strands) {
+  for (Strand& s : strands) {
+    if (s.parent == kNone) continue;
+    const auto inside = [&](int t) { return (s.points[t] - s.points.front()).norm(); };
+    const double half_rim = s.behind - inside(s.first);
+    if (s.radii[s.first] > kThinChild * 2.0 * half_rim) continue;  // begins inside already
+    s.first /= 2;
+    s.behind = inside(s.first) + half_rim;
+  }
 }
 
 void close_hidden_ends(std::vector<Strand>& strands, const Mask& hidden) {

@@ -32,6 +32,10 @@ struct Strand {
 // unless it ends at the frame (8 px) or on another strand.
 std::vector<Strand> make_strands(const Skeleton& skeleton);
 
+// Lets the thin children of new branches begin halfway inside their parents. A parent's light is often narrower than
+// its width says; what begins at its rim would float beside it. Where it is not, the stronger light hides the start.
+void begin_inside_parents(std::vector<Strand>& strands);
+
 // Ends within 8 px of where `hidden` is not 0 (a skyline, the rim of a field; may be empty) go on behind it: they are
 // not open.
 void close_hidden_ends(std::vector<Strand>& strands, const Mask& hidden);
