@@ -16,6 +16,7 @@ constexpr double kLeastOdd = 0.3, kOdd = 4.0;  // log ratio; times the median de
 constexpr double kLeastOfParent = 0.75;        // a child is dimmed to its parent's level, but no further than this
 constexpr double kBadTemplate = 0.7;           // cost of a template strand that is not fit to be copied
 constexpr double kBurnt = 0.85;                // level from which a core is burnt out, or a vessel as dark as they come
+constexpr int kBeside = 20;     // samples of a child that lie in its parent's glow
 constexpr double kLeastGain = 0.6, kMostGain = 1.6;
 constexpr double kLeastTint = 0.6, kMostTint = 1.6;
 constexpr double kGainSigma = 6.0;  // samples
@@ -131,6 +132,9 @@ void assign_levels(std::vector<Strand>& targets, const LightSource& source, doub
     }
     brightness = smooth(brightness, 6.0);
     if (target.parent != kNone) {
+      // Beside a parent's glow a base was measured too faint: it is as bright as what follows.
+      const int clear = std::min(target.first + kBeside, target.count() - 1);
+      for (int t = 0; t < clear; ++t) brightness[t] = std::max(brightness[t], brightness[clear]);
       const double most = targets[target.parent].level[target.parent_sample].mean();
       const double share = std::clamp(most / std::max(brightness[target.first], 1e-6), kLeastOfParent, 1.0);
       for (double& v : brightness) v *= share;
