@@ -74,6 +74,29 @@ TEST_CASE("keep gives the plate back pixel by pixel") {
   CHECK(b.source(5, 7) == Eigen::Vector2f(5.0f, 7.0f));
 }
 
+TEST_CASE("a shadow to one side of a branch leaves the plate with it") {
+  Scene s = ground(300, 200, 0.0f, 0.02f);
+  const auto shade = [](int beyond) {
+    return 0.06f * std::clamp(1.0f - static_cast<float>(beyond) / 14.0f, 0.0f, 1.0f);
+  };
+  for (int y = 103; y < 117; ++y) {  // below the branch, that lies on rows 97 to 102
+    for (int x = 0; x < 300; ++x) {
+      for (int c = 0; c < 3; ++c) s.exemplar.photo.color(x, y)[c] -= shade(y - 103);
+    }
+  }
+  finish(s);
+  double on_branch = 0.0, below = 0.0, elsewhere = 0.0;
+  for (int x = 20; x < 280; ++x) {
+    for (int k = 0; k < 6; ++k) {
+      on_branch += s.plate.color(x, 97 + k).g / (6 * 260);
+      below += s.plate.color(x, 103 + k).g / (6 * 260);
+      elsewhere += s.plate.color(x, 20 + k).g / (6 * 260);
+    }
+  }
+  CHECK(on_branch > elsewhere - 0.008);
+  CHECK(below > elsewhere - 0.008);
+}
+
 TEST_CASE("auto makes new ground of texture and varies what has shades or landmarks") {
   Scene texture = ground(240, 180, 0.0f);
   // A branch is part of the photo's slow share; keep it thin beside the grain.

@@ -2,6 +2,7 @@
 #include "ramify/exemplar/plate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ramify/exemplar/branch_zone.h"
@@ -53,12 +54,68 @@ double quantile(std::vector<float> values, double share) {
 }
 
 // How a photo differs from the ground around its branches, and how far the difference reaches.
+constexpr int kSides = 8;
 struct Reach {
   ScalarImage beside;      // px from the annotated branches
   ScalarImage apart;       // Lab difference to the ground around, in the branches' own direction
   double margin = 3.0;     // px beyond the annotated edge at which the median difference has died away
   double telling = 1e9;    // Lab; a difference this large beside a branch belongs to the branch
+  ScalarImage direction;   // rad, away from the nearest branch
+  std::array<double, kSides> side{};  // px beyond the edge, by that direction: how far a shadow to one side reaches
 };
+
+// The direction in which every pixel lies from what is nearest to it.
+ScalarImage away_from_nearest(const ScalarImage& distance) {
+  const ScalarImage calm = gaussian_blur(distance, 1.5);
+  ScalarImage out(distance.size());
+  for (int y = 0; y < out.height(); ++y) {
+    for (int x = 0; x < out.width(); ++x) {
+      out(x, y) =
+          std::atan2(calm.clamped(x, y + 1) - calm.clamped(x, y - 1), calm.clamped(x + 1, y) - calm.clamped(x - 1, y));
+    }
+  }
+  return out;
+}
+
+// Position of a direction among the sides, 0 … kSides.
+double side_of(float direction) {
+  const double s = direction / (2.0 * kPi) * kSides;
+  return s < 0.0 ? s + kSides : s;
+}
+
+// A branch that casts a shadow darkens one side of it, which a median over all sides misses. What both sides have (a
+// bank, a glow) does not count.
+void measure_sides(Reach& reach, const Mask& banned, double rest) {
+  constexpr int kFar = 20;                            // px
+  constexpr std::size_t kFew = 200;                   // pixels
+  const double visible = std::max(0.25, 0.4 * rest);  // Lab
+  reach.direction = away_from_nearest(reach.beside);
+  std::array<std::array<std::vector<float>, kFar>, kSides> at;
+  for (std::size_t i = 0; i < banned.pixels().size(); ++i) {
+    const float d = reach.beside.pixels()[i];
+    if (banned.pixels()[i] || d <= 0.0f || d >= kFar) continue;
+    const int side = static_cast<int>(std::lround(side_of(reach.direction.pixels()[i]))) % kSides;
+    at[side][static_cast<std::size_t>(d)].push_back(reach.apart.pixels()[i]);
+  }
+  for (int k = 0; k < kSides; ++k) {
+    const auto &here = at[k], &across = at[(k + kSides / 2) % kSides];
+    for (std::size_t d = 1; d < kFar && here[d].size() >= kFew && across[d].size() >= kFew; ++d) {
+      if (std::abs(quantile(here[d], 0.5)) < std::abs(quantile(across[d], 0.5)) + visible) break;
+      reach.side[k] = static_cast<double>(d) + 1.0;
+    }
+  }
+}
+
+// What lies in such a shadow.
+Mask shaded_sides(const Reach& reach) {
+  Mask mask(reach.beside.size(), 0);
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    const double s = side_of(reach.direction.pixels()[i]), u = s - std::floor(s);
+    const int k = static_cast<int>(s) % kSides;
+    if (reach.beside.pixels()[i] < (1.0 - u) * reach.side[k] + u * reach.side[(k + 1) % kSides]) mask.pixels()[i] = 255;
+  }
+  return mask;
+}
 
 Reach measure_reach(const Exemplar& exemplar, const Habitat& habitat) {
   constexpr float kFar = 24.0f;  // px
@@ -95,6 +152,7 @@ Reach measure_reach(const Exemplar& exemplar, const Habitat& habitat) {
   while (reach.margin < kMost && quantile(at[static_cast<std::size_t>(reach.margin)], 0.5) > rest + visible) {
     reach.margin += 1.0;
   }
+  measure_sides(reach, banned, rest);
   reach.telling = std::max(0.5 * contrast, quantile(elsewhere, 0.94));
   return reach;
 }
@@ -159,7 +217,8 @@ void fill_kept(Plate& plate, const Exemplar& exemplar, const Habitat& habitat, R
 Plate thin_plate(const Exemplar& exemplar, const Habitat& habitat, Rng rng, const Monitor& monitor) {
   Plate plate;
   const Reach reach = measure_reach(exemplar, habitat);
-  plate.hole = without(with_crumbs(branch_holes(exemplar, habitat, 1.15, reach.margin, 2.0), reach, habitat.own, exemplar.skeleton), habitat.outside);
+  plate.hole = add(branch_holes(exemplar, habitat, 1.15, reach.margin, 2.0), shaded_sides(reach));
+  plate.hole = without(with_crumbs(std::move(plate.hole), reach, habitat.own, exemplar.skeleton), habitat.outside);
   float widest = 0.0f;
   const ScalarImage depth = distance_to(invert(plate.hole));
   for (const float d : depth.pixels()) widest = std::max(widest, std::isfinite(d) ? d : 0.0f);
