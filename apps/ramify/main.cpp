@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ramify VERB INPUT… -o OUT [options]: the table of verbs. What they do stands in commands_*.cpp.
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
 
 #include "commands.h"
 #include "ramify/core/version.h"
@@ -41,9 +49,30 @@ int usage_error(const CLI::App& root, const Chosen& chosen, const CLI::ParseErro
   return report_error(chosen.shared, ExitCode::Usage, message);
 }
 
+// Pictures come and go by the hundred. By default the system gets back the memory of each and has to clear it anew, small
+// page by small page, for the next: a fifth of a run's processor time. So what is freed is kept, all threads share it, and
+// the first part of it is asked for in large pages. Only addresses are taken in advance. All of this may fail, without harm.
+void keep_freed_memory() {
+#if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
+  constexpr int kMostOfAPicture = 32 << 20, kAhead = 512 << 20, kLaterAhead = 16 << 20;  // bytes
+  constexpr std::size_t kLargePage = std::size_t{1} << 21;
+  mallopt(M_MMAP_THRESHOLD, kMostOfAPicture);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_TOP_PAD, kAhead);
+  const auto start = (reinterpret_cast<std::size_t>(sbrk(0)) + kLargePage - 1) / kLargePage * kLargePage;
+  void* volatile more_than_there_is = std::malloc(kLargePage);
+  std::free(more_than_there_is);
+  const auto end = reinterpret_cast<std::size_t>(sbrk(0)) / kLargePage * kLargePage;
+  if (start < end) madvise(reinterpret_cast<void*>(start), end - start, MADV_HUGEPAGE);
+  mallopt(M_TOP_PAD, kLaterAhead);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   Chosen chosen;
   CLI::App root("ramify - new photographs of branching things from one example", "ramify");
   root.set_version_flag("--version", "ramify " RAMIFY_VERSION);
