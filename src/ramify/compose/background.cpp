@@ -187,13 +187,16 @@ Background new_ground(const Exemplar& exemplar, const Habitat& habitat, const Pl
   const ScalarImage busy = busyness(plate.color, add(job.forbidden, plate.hole), kTone);
   ColorImage wanted(plan.canvas);
   ScalarImage wanted_busy(plan.canvas);
-  for (int y = 0; y < plan.canvas.height; ++y) {
-    for (int x = 0; x < plan.canvas.width; ++x) {
-      const Vec2 p(mirrored_at(map(x, y).x(), photo.width - 1), mirrored_at(map(x, y).y(), photo.height - 1));
-      wanted(x, y) = sample_bilinear(tone, p);
-      wanted_busy(x, y) = sample_bilinear(busy, p);
-    }
-  }
+  parallel_for(
+      plan.canvas.height,
+      [&](int y) {
+        for (int x = 0; x < plan.canvas.width; ++x) {
+          const Vec2 p(mirrored_at(map(x, y).x(), photo.width - 1), mirrored_at(map(x, y).y(), photo.height - 1));
+          wanted(x, y) = sample_bilinear(tone, p);
+          wanted_busy(x, y) = sample_bilinear(busy, p);
+        }
+      },
+      16);
   constexpr double kBusyWeight = 4.0;
   job.guides.push_back({busy, wanted_busy, kBusyWeight});
   if (slow > 0.05) {

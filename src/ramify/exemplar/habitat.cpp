@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ramify/core/parallel.h"
 #include "ramify/exemplar/apron.h"
 #include "ramify/exemplar/branch_zone.h"
 #include "ramify/exemplar/k_means.h"
@@ -167,8 +168,12 @@ Mask find_blobs(const ColorImage& lab, const Mask& banned) {
   for (std::size_t i = 0; i < weight.pixels().size(); ++i) weight.pixels()[i] = banned.pixels()[i] ? 0.0f : 1.0f;
   const ColorImage slow = masked_blur(lab, weight, 12.0);
   ScalarImage apart(lab.size());
-  for (std::size_t i = 0; i < apart.pixels().size(); ++i)
-    apart.pixels()[i] = delta_e(lab.pixels()[i], slow.pixels()[i]);
+  parallel_for(
+      lab.height(),
+      [&](int y) {
+        for (int x = 0; x < lab.width(); ++x) apart(x, y) = delta_e(lab(x, y), slow(x, y));
+      },
+      32);
   const auto [middle, spread] = robust_spread(apart, banned);
   const float strong = static_cast<float>(std::max(22.0, middle + 9.0 * spread)), weak = 0.5f * strong;
   Mask candidates = threshold(apart, weak);

@@ -2,6 +2,7 @@
 #include "ramify/image/completion.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 
@@ -79,15 +80,20 @@ ColorImage blend_quilt(const QuiltJob& job, const Quilt& quilt, const ColorImage
   const int w = job.hole.width(), h = job.hole.height();
   ColorImage hard = job.canvas;
   Mask bare(job.hole.size(), 0);
-  bool any_bare = false;
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
-      if (!job.hole(x, y)) continue;
-      const Rgb* c = shown(job, quilt, quilt.label(x, y), x, y);
-      if (c) hard(x, y) = *c;
-      else bare(x, y) = 255, any_bare = true;
-    }
-  }
+  std::atomic<bool> any_bare = false;
+  parallel_for(
+      h,
+      [&](int y) {
+        for (int x = 0; x < w; ++x) {
+          if (!job.hole(x, y)) continue;
+          const Rgb* c = shown(job, quilt, quilt.label(x, y), x, y);
+          if (c)
+            hard(x, y) = *c;
+          else
+            bare(x, y) = 255, any_bare = true;
+        }
+      },
+      32);
   if (any_bare) hard = membrane(hard, bare, monitor.stage("membrane", 0.0, 0.2));
   // Where the photo has no hard edges itself (a sky), no step is an edge of things.
   constexpr float kHard = 0.1f;  // sRGB
@@ -106,13 +112,23 @@ ColorImage blend_quilt(const QuiltJob& job, const Quilt& quilt, const ColorImage
   if (!tone.empty()) {
     const ColorImage slow = gaussian_blur(hard, tone_reach);
     problem.tone = ColorImage(job.hole.size());
-    for (std::size_t i = 0; i < slow.pixels().size(); ++i) problem.tone.pixels()[i] = tone.pixels()[i] - slow.pixels()[i];
+    parallel_for(
+        h,
+        [&](int y) {
+          for (int x = 0; x < w; ++x) problem.tone(x, y) = tone(x, y) - slow(x, y);
+        },
+        32);
     problem.screen = 1.0 / (tone_reach * tone_reach);
   }
   const ColorImage change = solve_blend(problem, monitor.stage("blend", 0.3, 1.0));
-  for (std::size_t i = 0; i < hard.pixels().size(); ++i) {
-    if (job.hole.pixels()[i]) hard.pixels()[i] = hard.pixels()[i] + change.pixels()[i];
-  }
+  parallel_for(
+      h,
+      [&](int y) {
+        for (int x = 0; x < w; ++x) {
+          if (job.hole(x, y)) hard(x, y) = hard(x, y) + change(x, y);
+        }
+      },
+      32);
   return hard;
 }
 
@@ -178,11 +194,14 @@ Completion complete(const ColorImage& image, const Mask& hole, const Mask& forbi
     quilt.label = LabelImage(hole.size(), kNone);
   }
   result.source = quilt_sources(quilt);
-  for (int y = 0; y < hole.height(); ++y) {
-    for (int x = 0; x < hole.width(); ++x) {
-      if (!hole(x, y)) result.source(x, y) = {static_cast<float>(x), static_cast<float>(y)};
-    }
-  }
+  parallel_for(
+      hole.height(),
+      [&](int y) {
+        for (int x = 0; x < hole.width(); ++x) {
+          if (!hole(x, y)) result.source(x, y) = {static_cast<float>(x), static_cast<float>(y)};
+        }
+      },
+      32);
   return result;
 }
 

@@ -29,29 +29,53 @@ std::vector<float> gaussian_kernel(double sigma) {
   return kernel;
 }
 
+inline const float* values(const float* pixel) { return pixel; }
+inline const float* values(const Rgb* pixel) { return &pixel->r; }
+inline float* values(float* pixel) { return pixel; }
+inline float* values(Rgb* pixel) { return &pixel->r; }
+
+// out[i] = sum over k of kernel[k] * from(k)[i], for i = 0 … count - 1, summed in the order of k.
+template <class From>
+void weighted_sum(const std::vector<float>& kernel, const From& from, int count, float* out) {
+  constexpr int kBlock = 16;  // sums that are kept in registers
+  const int taps = static_cast<int>(kernel.size());
+  int i = 0;
+  for (; i + kBlock <= count; i += kBlock) {
+    float sum[kBlock] = {};
+    for (int k = 0; k < taps; ++k) {
+      const float weight = kernel[k];
+      const float* row = from(k) + i;
+      for (int j = 0; j < kBlock; ++j) sum[j] += weight * row[j];
+    }
+    std::copy(sum, sum + kBlock, out + i);
+  }
+  for (; i < count; ++i) {
+    float sum = 0.0f;
+    for (int k = 0; k < taps; ++k) sum += kernel[k] * from(k)[i];
+    out[i] = sum;
+  }
+}
+
 template <class T>
 Image<T> blur_direct(const Image<T>& image, double sigma) {
+  constexpr int kChannels = sizeof(T) / sizeof(float);
   const std::vector<float> kernel = gaussian_kernel(sigma);
   const int reach = static_cast<int>(kernel.size()) / 2;
   const int w = image.width(), h = image.height();
   Image<T> across(image.size()), out(image.size());
   parallel_for(h, [&](int y) {
     std::vector<T> line(w + 2 * reach);
-    for (int x = 0; x < w + 2 * reach; ++x) line[x] = image(mirrored(x - reach, w), y);
-    T* to = across.row(y);
-    for (int x = 0; x < w; ++x) {
-      T sum{};
-      for (int k = 0; k < 2 * reach + 1; ++k) sum = sum + kernel[k] * line[x + k];
-      to[x] = sum;
+    std::copy(image.row(y), image.row(y) + w, line.begin() + reach);
+    for (int x = 0; x < reach; ++x) {
+      line[x] = image(mirrored(x - reach, w), y);
+      line[w + reach + x] = image(mirrored(w + x, w), y);
     }
+    weighted_sum(kernel, [&](int k) { return values(line.data()) + kChannels * k; }, kChannels * w, values(across.row(y)));
   }, 16);
   parallel_for(h, [&](int y) {
-    T* to = out.row(y);
-    for (int k = -reach; k <= reach; ++k) {
-      const T* from = across.row(mirrored(y + k, h));
-      const float weight = kernel[k + reach];
-      for (int x = 0; x < w; ++x) to[x] = to[x] + weight * from[x];
-    }
+    std::vector<const float*> rows(kernel.size());
+    for (int k = -reach; k <= reach; ++k) rows[k + reach] = values(across.row(mirrored(y + k, h)));
+    weighted_sum(kernel, [&](int k) { return rows[k]; }, kChannels * w, values(out.row(y)));
   }, 16);
   return out;
 }
@@ -59,11 +83,30 @@ Image<T> blur_direct(const Image<T>& image, double sigma) {
 // Bilinear upsampling keeps a wide blur smooth: its bends are far longer than a reduced pixel.
 template <class T>
 Image<T> enlarge(const Image<T>& small, Size size) {
+  struct Place {
+    int low, high;
+    float share;
+  };
+  const auto places = [](int from, int to) {
+    const double scale = static_cast<double>(from) / to;
+    std::vector<Place> out(static_cast<std::size_t>(to));
+    for (int i = 0; i < to; ++i) {
+      const double p = (i + 0.5) * scale - 0.5, whole = std::floor(p);
+      const int low = static_cast<int>(whole);
+      out[i] = {std::clamp(low, 0, from - 1), std::clamp(low + 1, 0, from - 1), static_cast<float>(p - whole)};
+    }
+    return out;
+  };
+  const std::vector<Place> columns = places(small.width(), size.width), rows = places(small.height(), size.height);
   Image<T> out(size);
-  const double sx = static_cast<double>(small.width()) / size.width, sy = static_cast<double>(small.height()) / size.height;
   parallel_for(size.height, [&](int y) {
+    const T *above = small.row(rows[y].low), *below = small.row(rows[y].high);
+    const float ty = rows[y].share;
+    T* to = out.row(y);
     for (int x = 0; x < size.width; ++x) {
-      out(x, y) = sample_bilinear(small, Vec2((x + 0.5) * sx - 0.5, (y + 0.5) * sy - 0.5));
+      const auto& [low, high, tx] = columns[x];
+      const T upper = (1.0f - tx) * above[low] + tx * above[high], lower = (1.0f - tx) * below[low] + tx * below[high];
+      to[x] = (1.0f - ty) * upper + ty * lower;
     }
   }, 16);
   return out;
@@ -88,21 +131,21 @@ Rgb times(const Rgb& a, float w) { return w * a; }
 template <class T>
 Image<T> weighted_blur(const Image<T>& image, const ScalarImage& weight, double sigma) {
   Image<T> weighted(image.size());
-  for (std::size_t i = 0; i < weighted.pixels().size(); ++i) {
-    weighted.pixels()[i] = times(image.pixels()[i], weight.pixels()[i]);
-  }
+  parallel_for(image.height(), [&](int y) {
+    for (int x = 0; x < image.width(); ++x) weighted(x, y) = times(image(x, y), weight(x, y));
+  }, 32);
   Image<T> sum = blur(weighted, sigma);
   const ScalarImage total = blur(weight, sigma);
+  constexpr float kNothing = 1e-6f;
+  const auto& totals = total.pixels();
   Image<T> plain;
-  for (std::size_t i = 0; i < sum.pixels().size(); ++i) {
-    const float w = total.pixels()[i];
-    if (w > 1e-6f) {
-      sum.pixels()[i] = times(sum.pixels()[i], 1.0f / w);
-    } else {
-      if (plain.empty()) plain = blur(image, sigma);
-      sum.pixels()[i] = plain.pixels()[i];
+  if (std::any_of(totals.begin(), totals.end(), [](float w) { return !(w > kNothing); })) plain = blur(image, sigma);
+  parallel_for(image.height(), [&](int y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const float w = total(x, y);
+      sum(x, y) = w > kNothing ? times(sum(x, y), 1.0f / w) : plain(x, y);
     }
-  }
+  }, 32);
   return sum;
 }
 
@@ -157,18 +200,29 @@ Gradient gradient(const ScalarImage& image) {
 
 ScalarImage distance_to(const Mask& mask) {
   const int w = mask.width(), h = mask.height();
-  Image<double> columns(mask.size());
-  parallel_for(w, [&](int x) {
-    std::vector<double> f(h), d(h), z(h + 1);
-    std::vector<int> v(h);
-    for (int y = 0; y < h; ++y) f[y] = mask(x, y) ? 0.0 : kFar;
-    squared_distances(f, d, v, z);
-    for (int y = 0; y < h; ++y) columns(x, y) = std::min(d[y], kFar);
-  }, 32);
+  // Along columns, row by row: px to the nearest pixel above or below; h where there is none.
+  constexpr int kStrip = 256;  // columns
+  Image<std::int32_t> steps(mask.size());
+  parallel_for((w + kStrip - 1) / kStrip, [&](int strip) {
+    const int x0 = strip * kStrip, x1 = std::min(w, x0 + kStrip);
+    for (int y = 0; y < h; ++y) {
+      const std::uint8_t* on = mask.row(y);
+      std::int32_t* to = steps.row(y);
+      const std::int32_t* above = y > 0 ? steps.row(y - 1) : nullptr;
+      for (int x = x0; x < x1; ++x) to[x] = on[x] ? 0 : above ? std::min(above[x] + 1, h) : h;
+    }
+    for (int y = h - 2; y >= 0; --y) {
+      std::int32_t* to = steps.row(y);
+      const std::int32_t* below = steps.row(y + 1);
+      for (int x = x0; x < x1; ++x) to[x] = std::min(to[x], below[x] + 1);
+    }
+  });
   ScalarImage out(mask.size());
   parallel_for(h, [&](int y) {
-    std::vector<double> f(columns.row(y), columns.row(y) + w), d(w), z(w + 1);
+    std::vector<double> f(w), d(w), z(w + 1);
     std::vector<int> v(w);
+    const std::int32_t* from = steps.row(y);
+    for (int x = 0; x < w; ++x) f[x] = from[x] < h ? static_cast<double>(from[x]) * from[x] : kFar;
     squared_distances(f, d, v, z);
     for (int x = 0; x < w; ++x) {
       out(x, y) = d[x] >= 0.5 * kFar ? std::numeric_limits<float>::infinity() : static_cast<float>(std::sqrt(d[x]));
