@@ -84,10 +84,11 @@ int PasteCost::data(int label, int x, int y) const {
     return static_cast<int>(kForeignGround * std::max(0.0, 1.0 - plan_.field.signed_distance(x, y) / std::max(1.0, options_.apron)));
   }
   const Placement& placement = plan_.placements[label];
-  const double distance = std::hypot(x - placement.centre.x(), y - placement.centre.y());
   const Patch& patch = patches_[label];
+  if (!patch.usable(x, y)) return kForbiddenCost;
+  const double distance = std::hypot(x - placement.centre.x(), y - placement.centre.y());
   const bool beyond = distance > kDiscShare * placement.radius;
-  if (!patch.usable(x, y) || (beyond && !in_core(x, y))) return kForbiddenCost;
+  if (beyond && !in_core(x, y)) return kForbiddenCost;
   const float there = patch.distance_at(x, y), here = plan_.field.signed_distance(x, y);
   double cost = kOffCentre * distance / placement.radius;
   if ((there > 0) != (here > 0) && std::abs(there - here) > 1.5f) {
@@ -96,11 +97,6 @@ int PasteCost::data(int label, int x, int y) const {
     cost += kShadow;
   }
   return static_cast<int>(cost) + (beyond ? kBeyondDisc : 0);
-}
-
-float PasteCost::step(int label, int x, int y, int dx, int dy) const {
-  const Rgb *a = color(label, x, y), *b = color(label, x + dx, y + dy);
-  return a && b ? color_distance(*a, *b) : 0.0f;
 }
 
 // Kwatra et al. 2003: the colour difference at both pixels relative to the pictures' own steps there, plus the difference
@@ -114,7 +110,8 @@ int PasteCost::pair(int a, int b, int x, int y, int dx, int dy) const {
   if (at_q) difference += color_distance(*aq, *bq);
   if (!(at_p && at_q)) difference *= 2.0f;
   if (options_.paper_cut) return static_cast<int>(kSeam + 100.0f * difference);
-  float cost = 2.0f * difference / (2.0f * (step(a, x, y, dx, dy) + step(b, x, y, dx, dy)) + 6.0f);
+  const float own_steps = (ap && aq ? color_distance(*ap, *aq) : 0.0f) + (bp && bq ? color_distance(*bp, *bq) : 0.0f);
+  float cost = 2.0f * difference / (2.0f * own_steps + 6.0f);
   if (at_p && at_q) cost += 0.05f * color_distance(*ap - *aq, *bp - *bq);
   return static_cast<int>(kSeam + 1000.0f * cost * crossing_(x, y));
 }

@@ -28,7 +28,6 @@ class PasteCost {
  private:
   int data(int label, int x, int y) const;
   int pair(int a, int b, int x, int y, int dx, int dy) const;
-  float step(int label, int x, int y, int dx, int dy) const;
 
   const PlacementPlan& plan_;
   const std::vector<Patch>& patches_;

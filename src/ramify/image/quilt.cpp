@@ -2,6 +2,7 @@
 #include "ramify/image/quilt.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -253,14 +254,17 @@ Quilt make_quilt(const QuiltJob& job, const QuiltOptions& options, Rng rng, cons
 VectorImage quilt_sources(const Quilt& quilt) {
   const float none = std::numeric_limits<float>::quiet_NaN();
   VectorImage out(quilt.label.size(), Eigen::Vector2f(none, none));
-  for (int y = 0; y < out.height(); ++y) {
-    for (int x = 0; x < out.width(); ++x) {
-      const int label = quilt.label(x, y);
-      if (label == kNone) continue;
-      const QuiltPatch& p = quilt.patches[label];
-      out(x, y) = {static_cast<float>(p.source_x(x)), static_cast<float>(p.source_y(y))};
-    }
-  }
+  parallel_for(
+      out.height(),
+      [&](int y) {
+        for (int x = 0; x < out.width(); ++x) {
+          const int label = quilt.label(x, y);
+          if (label == kNone) continue;
+          const QuiltPatch& p = quilt.patches[label];
+          out(x, y) = {static_cast<float>(p.source_x(x)), static_cast<float>(p.source_y(y))};
+        }
+      },
+      32);
   return out;
 }
 
@@ -268,13 +272,16 @@ double structure_length(const ColorImage& photo, const Mask& forbidden) {
   const ScalarImage light = luma(photo);
   ScalarImage weight(photo.size(), 0.0f);
   for (std::size_t i = 0; i < weight.pixels().size(); ++i) weight.pixels()[i] = forbidden.pixels()[i] ? 0.0f : 1.0f;
-  const ScalarImage wide = masked_blur(light, weight, 40.0);  // slow shading is not structure
+  ScalarImage swing = masked_blur(light, weight, 40.0);  // slow shading is not structure
+  for (std::size_t i = 0; i < swing.pixels().size(); ++i) swing.pixels()[i] = light.pixels()[i] - swing.pixels()[i];
   const auto product = [&](int dx, int dy) {
     double sum = 0.0, count = 0.0;
     for (int y = 0; y + dy < light.height(); y += 2) {
+      const float *here = swing.row(y), *there = swing.row(y + dy) + dx;
+      const float *counts = weight.row(y), *counts_there = weight.row(y + dy) + dx;
       for (int x = 0; x + dx < light.width(); x += 2) {
-        if (weight(x, y) == 0.0f || weight(x + dx, y + dy) == 0.0f) continue;
-        sum += (light(x, y) - wide(x, y)) * (light(x + dx, y + dy) - wide(x + dx, y + dy));
+        if (counts[x] == 0.0f || counts_there[x] == 0.0f) continue;
+        sum += here[x] * there[x];
         count += 1.0;
       }
     }
@@ -284,7 +291,10 @@ double structure_length(const ColorImage& photo, const Mask& forbidden) {
   if (variance <= 0.0) return 8.0;
   const int most = std::min({64, light.width() / 4, light.height() / 4});
   for (int lag = 2; lag < most; lag = std::max(lag + 1, lag * 5 / 4)) {
-    if (std::max(product(lag, 0), product(0, lag)) < 0.15 * variance) return lag;
+    std::array<double, 2> products{};
+    parallel_for(
+        2, [&](int along) { products[static_cast<std::size_t>(along)] = along ? product(0, lag) : product(lag, 0); });
+    if (std::max(products[0], products[1]) < 0.15 * variance) return lag;
   }
   return most;
 }

@@ -41,24 +41,6 @@ class View {
     return job_.forbidden(u, v) ? kForbiddenPixel : 0.0f;
   }
 
-  // Kwatra's seam cost between labels a and b on the edge p-q, weighed by the liveliness of both pictures.
-  float seam(int a, int b, int px, int py, int qx, int qy) const {
-    if (a == b) return 0.0f;
-    const Rgb *ap = color(a, px, py), *bp = color(b, px, py), *aq = color(a, qx, qy), *bq = color(b, qx, qy);
-    float error = 0.0f, lively = 0.0f, step = 0.0f;
-    const bool at_p = ap && bp, at_q = aq && bq;
-    if (!at_p && !at_q) return 1.0f;
-    if (at_p) error += norm(*ap - *bp);
-    if (at_q) error += norm(*aq - *bq);
-    if (at_p != at_q) error *= 2.0f;
-    if (ap && aq) lively += norm(*ap - *aq);
-    if (bp && bq) lively += norm(*bp - *bq);
-    if (at_p && at_q) step = norm((*ap - *bp) - (*aq - *bq));
-    const float cost = kSeamFloor + error / (lively + kContrast) + step;
-    return precious(a, px, py) || precious(b, px, py) ? 6.0f * cost : cost;
-  }
-
- private:
   bool precious(int label, int x, int y) const {
     if (label == kNone || job_.precious.empty()) return false;
     const QuiltPatch& p = quilt_.patches[label];
@@ -66,42 +48,88 @@ class View {
     return job_.precious.contains(u, v) && job_.precious(u, v);
   }
 
+ private:
   const QuiltJob& job_;
   const Quilt& quilt_;
 };
 
+// Kwatra's seam cost between two pictures a and b on the edge p-q, weighed by the liveliness of both. Pixels that a
+// picture lacks are null.
+float seam(const Rgb* ap, const Rgb* bp, const Rgb* aq, const Rgb* bq, float dearness) {
+  float error = 0.0f, lively = 0.0f, step = 0.0f;
+  const bool at_p = ap && bp, at_q = aq && bq;
+  if (!at_p && !at_q) return 1.0f;
+  if (at_p) error += norm(*ap - *bp);
+  if (at_q) error += norm(*aq - *bq);
+  if (at_p != at_q) error *= 2.0f;
+  if (ap && aq) lively += norm(*ap - *aq);
+  if (bp && bq) lively += norm(*bp - *bq);
+  if (at_p && at_q) step = norm((*ap - *bp) - (*aq - *bq));
+  return dearness * (kSeamFloor + error / (lively + kContrast) + step);
+}
+
 struct Box {
   int x0, y0, x1, y1;  // half open
-  bool contains(int x, int y) const { return x >= x0 && y >= y0 && x < x1 && y < y1; }
 };
 
-// Adds the pairwise terms of the edge p-q; source side = keep, sink side = take the patch (Kolmogorov and Zabih 2004).
-void add_edge(Graph& graph, const View& view, const Quilt& quilt, int index, const Image<int>& node, const Box& box,
-              int px, int py, int qx, int qy) {
-  const auto id = [&](int x, int y) { return box.contains(x, y) ? node(x - box.x0, y - box.y0) : kNone; };
-  const int a = id(px, py), b = id(qx, qy);
-  if (a == kNone && b == kNone) return;
-  const int lp = quilt.label(px, py), lq = quilt.label(qx, qy);
-  const bool empty_p = view.color(lp, px, py) == nullptr, empty_q = view.color(lq, qx, qy) == nullptr;
-  if (empty_p || empty_q) {
-    // A pixel nobody covers yet will take the patch; its labelled neighbour pays for the seam if it stays as it is.
-    const int other = empty_p ? b : a, taker = empty_p ? a : b;
-    if (empty_p != empty_q && other != kNone && taker != kNone)
-      graph.add_tweights(other, 0.0f, view.seam(empty_p ? lq : lp, index, px, py, qx, qy));
-    return;
+// A pixel of the box or beside it.
+struct Place {
+  int x = 0, y = 0;
+  int node = kNone;            // of the graph, if it may change
+  int label = kNone;           // present
+  const Rgb* own = nullptr;    // what that shows here, if anything
+  const Rgb* fresh = nullptr;  // what the patch shows here
+};
+
+// The pairwise terms of an expansion; source side = keep, sink side = take the patch (Kolmogorov and Zabih 2004).
+class Terms {
+ public:
+  Terms(Graph& graph, const View& view, int index) : graph_(graph), view_(view), index_(index) {}
+
+  void add_edge(const Place& p, const Place& q) {
+    if (p.node == kNone && q.node == kNone) return;
+    if (!p.own || !q.own) {
+      // A pixel nobody covers yet will take the patch; its labelled neighbour pays for the seam if it stays as it is.
+      const Place &other = p.own ? p : q, &taker = p.own ? q : p;
+      if ((!p.own) != (!q.own) && other.node != kNone && taker.node != kNone) {
+        graph_.add_tweights(other.node, 0.0f, to_fresh(other.label, p, q));
+      }
+      return;
+    }
+    if (p.node == kNone || q.node == kNone) {
+      const float keep = between(p, q), take = to_fresh(p.node == kNone ? p.label : q.label, p, q);
+      graph_.add_tweights(p.node == kNone ? q.node : p.node, take, keep);
+      return;
+    }
+    const float e01 = to_fresh(p.label, p, q), e10 = p.label == q.label ? e01 : to_fresh(q.label, p, q);
+    const float e00 = std::min(between(p, q), e01 + e10);  // truncated to stay submodular
+    graph_.add_tweights(p.node, std::max(0.0f, e10 - e00), std::max(0.0f, e00 - e10));
+    graph_.add_tweights(q.node, 0.0f, e10);
+    graph_.add_edge(p.node, q.node, std::max(0.0f, e01 + e10 - e00), 0.0f);
   }
-  if (a == kNone || b == kNone) {
-    const float keep = view.seam(lp, lq, px, py, qx, qy);
-    const float take = a == kNone ? view.seam(lp, index, px, py, qx, qy) : view.seam(index, lq, px, py, qx, qy);
-    graph.add_tweights(a == kNone ? b : a, take, keep);
-    return;
+
+ private:
+  // The seam between a present label and the patch.
+  float to_fresh(int label, const Place& p, const Place& q) const {
+    if (label == index_) return 0.0f;
+    const Rgb* at_p = label == p.label ? p.own : view_.color(label, p.x, p.y);
+    const Rgb* at_q = label == q.label ? q.own : view_.color(label, q.x, q.y);
+    return seam(at_p, p.fresh, at_q, q.fresh, dearness(label, index_, p));
   }
-  const float e01 = view.seam(lp, index, px, py, qx, qy), e10 = view.seam(index, lq, px, py, qx, qy);
-  const float e00 = std::min(view.seam(lp, lq, px, py, qx, qy), e01 + e10);  // truncated to stay submodular
-  graph.add_tweights(a, std::max(0.0f, e10 - e00), std::max(0.0f, e00 - e10));
-  graph.add_tweights(b, 0.0f, e10);
-  graph.add_edge(a, b, std::max(0.0f, e01 + e10 - e00), 0.0f);
-}
+  // The seam there is.
+  float between(const Place& p, const Place& q) const {
+    if (p.label == q.label) return 0.0f;
+    return seam(p.own, view_.color(q.label, p.x, p.y), view_.color(p.label, q.x, q.y), q.own,
+                dearness(p.label, q.label, p));
+  }
+  float dearness(int a, int b, const Place& p) const {
+    return view_.precious(a, p.x, p.y) || view_.precious(b, p.x, p.y) ? 6.0f : 1.0f;
+  }
+
+  Graph& graph_;
+  const View& view_;
+  int index_;
+};
 
 }  // namespace
 
@@ -112,35 +140,40 @@ void expand_patch(const QuiltJob& job, Quilt& quilt, int index) {
                 std::min(height, patch.ty + patch.side)};
   if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
   const View view(job, quilt);
-  Image<int> node(box.x1 - box.x0, box.y1 - box.y0, kNone);
+  // With the pixels to the left and above, and those to the right and below.
+  const int left = std::max(0, box.x0 - 1), top = std::max(0, box.y0 - 1);
+  Image<Place> places(std::min(width, box.x1 + 1) - left, std::min(height, box.y1 + 1) - top);
   int count = 0;
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      if (job.hole(x, y)) node(x - box.x0, y - box.y0) = count++;
+  for (int y = top; y < top + places.height(); ++y) {
+    for (int x = left; x < left + places.width(); ++x) {
+      Place& place = places(x - left, y - top);
+      const bool inside = x >= box.x0 && y >= box.y0 && x < box.x1 && y < box.y1;
+      place.x = x, place.y = y;
+      if (inside && job.hole(x, y)) place.node = count++;
+      place.label = quilt.label(x, y);
+      place.own = view.color(place.label, x, y);
+      place.fresh = view.color(index, x, y);
     }
   }
   if (count == 0) return;
   Graph graph(count, 2 * count + 8, no_memory);
   graph.add_node(count);
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      const int id = node(x - box.x0, y - box.y0);
-      if (id != kNone) graph.add_tweights(id, view.data(index, x, y), view.data(quilt.label(x, y), x, y));
-    }
+  for (const Place& place : places.pixels()) {
+    if (place.node != kNone)
+      graph.add_tweights(place.node, view.data(index, place.x, place.y), view.data(place.label, place.x, place.y));
   }
-  for (int y = std::max(0, box.y0 - 1); y < box.y1; ++y) {
-    for (int x = std::max(0, box.x0 - 1); x < box.x1; ++x) {
-      if (x + 1 < width && y >= box.y0) add_edge(graph, view, quilt, index, node, box, x, y, x + 1, y);
-      if (y + 1 < height && x >= box.x0) add_edge(graph, view, quilt, index, node, box, x, y, x, y + 1);
+  Terms terms(graph, view, index);
+  for (int y = top; y < box.y1; ++y) {
+    for (int x = left; x < box.x1; ++x) {
+      const Place& place = places(x - left, y - top);
+      if (x + 1 < width && y >= box.y0) terms.add_edge(place, places(x + 1 - left, y - top));
+      if (y + 1 < height && x >= box.x0) terms.add_edge(place, places(x - left, y + 1 - top));
     }
   }
   graph.maxflow();
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      const int id = node(x - box.x0, y - box.y0);
-      if (id == kNone || graph.what_segment(id) != Graph::SINK) continue;
-      if (view.data(index, x, y) < kImpossible) quilt.label(x, y) = index;
-    }
+  for (const Place& place : places.pixels()) {
+    if (place.node == kNone || graph.what_segment(place.node) != Graph::SINK) continue;
+    if (view.data(index, place.x, place.y) < kImpossible) quilt.label(place.x, place.y) = index;
   }
 }
 

@@ -60,19 +60,34 @@ PatchSearch::PatchSearch(const QuiltJob& job, const QuiltOptions& options, int s
     : job_(job), options_(options), side_(side), cell_(std::max(1, side / kCells)) {
   const ColorImage color = square_means(job.source, cell_);
   const ScalarImage lively = square_means(liveliness(job.source), cell_);
-  bad_ = square_means(share_of(job.forbidden), cell_);
-  for (const GuideChannel& guide : job.guides) guides_.push_back(square_means(guide.source, cell_));
-  described_ = Image<std::array<float, 4>>(job.source.size());
+  const ScalarImage bad = square_means(share_of(job.forbidden), cell_);
+  std::vector<ScalarImage> guides;
+  for (const GuideChannel& guide : job.guides) guides.push_back(square_means(guide.source, cell_));
+  const int w = job.source.width(), h = job.source.height();
+  constexpr std::size_t kAligned = 4;
+  stride_ = (kFirstGuide + guides.size() + kAligned - 1) / kAligned * kAligned;
+  described_.resize(stride_ * static_cast<std::size_t>(w) * h);
+  parallel_for(
+      h,
+      [&](int y) {
+        float* to = &described_[stride_ * static_cast<std::size_t>(y) * w];
+        for (int x = 0; x < w; ++x, to += stride_) {
+          const Rgb& c = color(x, y);
+          to[0] = c.r, to[1] = c.g, to[2] = c.b, to[3] = lively(x, y);
+          to[kBad] = bad(x, y);
+          for (std::size_t g = 0; g < guides.size(); ++g) to[kFirstGuide + g] = guides[g](x, y);
+        }
+      },
+      32);
   std::array<double, 4> sum{}, square{};
   double count = 0.0;
-  for (int y = 0; y < described_.height(); ++y) {
-    for (int x = 0; x < described_.width(); ++x) {
-      const Rgb& c = color(x, y);
-      described_(x, y) = {c.r, c.g, c.b, lively(x, y)};
-      if (bad_(x, y) > 0.0f || (x + y) % 3 != 0) continue;
+  for (int y = 0; y < h; ++y) {
+    for (int x = (3 - y % 3) % 3; x < w; x += 3) {
+      const float* here = described(x, y);
+      if (here[kBad] > 0.0f) continue;
       for (int k = 0; k < 4; ++k) {
-        sum[k] += described_(x, y)[k];
-        square[k] += described_(x, y)[k] * described_(x, y)[k];
+        sum[k] += here[k];
+        square[k] += here[k] * here[k];
       }
       count += 1.0;
     }
@@ -150,15 +165,15 @@ double PatchSearch::cost(const Target& target, const QuiltPatch& patch, double l
     if (u < 0 || v < 0 || u + edge >= w || v + edge >= h) {
       sum += kBadWeight * cell.open * per_cell;
     } else {
-      sum += kBadWeight * cell.open * bad_(u, v) * per_cell;
+      const float* a = described(u, v);
+      sum += kBadWeight * cell.open * a[kBad] * per_cell;
       if (cell.known > 0.0f) {
-        const auto& a = described_(u, v);
         float d = 0.0f;
         for (int k = 0; k < 4; ++k) d += (a[k] - cell.value[k]) * (a[k] - cell.value[k]);
         sum += cell.known * d * per_known;
       }
-      for (std::size_t g = 0; g < guides_.size(); ++g) {
-        const double d = guides_[g](u, v) - target.guides[g][index];
+      for (std::size_t g = 0; g < job_.guides.size(); ++g) {
+        const double d = a[kFirstGuide + g] - target.guides[g][index];
         sum += job_.guides[g].weight * d * d * per_cell;
       }
     }

@@ -48,9 +48,15 @@ class PatchSearch {
   const QuiltOptions& options_;
   int side_ = 0;
   int cell_ = 0;                           // px, side of a cell
-  Image<std::array<float, 4>> described_;  // of the cell whose lowest corner is here
-  ScalarImage bad_;                        // share of forbidden pixels in that cell
-  std::vector<ScalarImage> guides_;        // cell means
+  // Of the cell whose lowest corner is a pixel: mean r, g, b and gradient, share of forbidden pixels, means of the
+  // guides. All that is known of a cell lies side by side: places are drawn at random, so each would be fetched from
+  // far otherwise.
+  static constexpr int kBad = 4, kFirstGuide = 5;
+  const float* described(int x, int y) const {
+    return &described_[(static_cast<std::size_t>(y) * job_.source.width() + x) * stride_];
+  }
+  std::size_t stride_ = 0;
+  std::vector<float> described_;
   Image<float> used_;                      // on a grid of cells
   float variance_ = 1.0f;                  // of the descriptors over allowed places
 };
