@@ -18,6 +18,7 @@
 #include "ramify/core/options.h"
 #include "ramify/core/parallel.h"
 #include "ramify/core/random.h"
+#include "ramify/core/rounding.h"
 #include "ramify/core/types.h"
 #include "support/temp_folder.h"
 
@@ -242,4 +243,14 @@ TEST_CASE("printable text cannot drive a terminal") {
   CHECK(printable("\xc0\xaf\xed\xa0\x80\xff") == "\\xc0\\xaf\\xed\\xa0\\x80\\xff");
   CHECK(printable("\xc2\x9b" "2J") == "\\xc2\\x9b2J");
   CHECK(printable(std::string(500, 'a')).size() < 210);
+}
+
+TEST_CASE("rounding to a whole number is lround's") {
+  Rng rng(31);
+  const auto check = [](double v) { CHECK(round_to_int(v) == static_cast<int>(std::lround(v))); };
+  for (const double v : {0.0, -0.0, 0.5, -0.5, 1.5, 2.5, -2.5, 0.49999999999999994, -0.49999999999999994, 1e9 + 0.5, -1e9 - 0.5}) check(v);
+  for (int i = 0; i < 20000; ++i) {
+    const double v = rng.uniform(-5000.0, 5000.0), half = std::floor(v) + 0.5;
+    for (const double w : {v, half, std::nextafter(half, 1e9), std::nextafter(half, -1e9)}) check(w);
+  }
 }

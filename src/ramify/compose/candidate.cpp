@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ramify/core/parallel.h"
+#include "ramify/core/rounding.h"
 #include "ramify/geometry/registration.h"
 
 namespace ramify {
@@ -52,8 +54,6 @@ SourceCandidate compare_shapes(const BranchShape& source, const BranchShape& tar
     sum += omega * d * d;
   }
   candidate.angle = alignment.angle;
-  candidate.cosine = std::cos(alignment.angle);
-  candidate.sine = std::sin(alignment.angle);
   candidate.shape = sum / (static_cast<double>(source.count) * radius * radius);
   return candidate;
 }
@@ -160,49 +160,110 @@ std::vector<SourceCandidate> match_shapes(const CandidateContext& context, const
   return found;
 }
 
+// Sorted by cost; those of equal cost keep their order.
 void keep_best(std::vector<SourceCandidate>& candidates, std::size_t count) {
-  std::stable_sort(candidates.begin(), candidates.end(), [](const SourceCandidate& a, const SourceCandidate& b) { return a.cost < b.cost; });
-  if (candidates.size() > count) candidates.resize(count);
+  std::vector<std::pair<double, std::size_t>> order(candidates.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = {candidates[i].cost, i};
+  count = std::min(count, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
+  std::vector<SourceCandidate> best;
+  best.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) best.push_back(candidates[order[k].second]);
+  candidates = std::move(best);
 }
 
-// Share of the disc where one has a branch and the other has none; places the photo does not have count as well.
-double mask_disagreement(const CandidateContext& context, const Fragment& target, const SourceCandidate& c) {
-  const FragmentLibrary& library = context.library;
-  const Fragment& source = library.fragments[c.source];
-  double bad = 0.0;
-  int count = 0;
+// A point of the target's disc, on the canvas.
+struct DiscPoint {
+  Vec2 offset;     // px from the centre
+  float distance;  // px to the branch, signed
+};
+std::vector<DiscPoint> disc_points(const CandidateContext& context, const Fragment& target) {
+  std::vector<DiscPoint> points;
   for (int gy = -kDiscGrid; gy <= kDiscGrid; ++gy) {
     for (int gx = -kDiscGrid; gx <= kDiscGrid; ++gx) {
       if (gx * gx + gy * gy > kDiscGrid * kDiscGrid) continue;
       const Vec2 offset = target.radius / kDiscGrid * Vec2(gx, gy);
-      const int x = static_cast<int>(std::lround(target.centre.x() + offset.x()));
-      const int y = static_cast<int>(std::lround(target.centre.y() + offset.y()));
-      if (!context.field.signed_distance.contains(x, y)) continue;
-      ++count;
-      const Vec2 p = source.centre + photo_offset(c, offset);
-      const int u = static_cast<int>(std::lround(p.x())), v = static_cast<int>(std::lround(p.y()));
-      if (!library.lab.contains(u, v) || library.unusable(u, v)) {
-        bad += 1.0;
-        continue;
-      }
-      const float a = library.field.signed_distance(u, v), b = context.field.signed_distance(x, y);
+      const int x = round_to_int(target.centre.x() + offset.x()), y = round_to_int(target.centre.y() + offset.y());
+      if (context.field.signed_distance.contains(x, y)) points.push_back({offset, context.field.signed_distance(x, y)});
+    }
+  }
+  return points;
+}
+
+// Share of the disc where one has a branch and the other has none; places the photo does not have count as well. Where
+// it is sure to be more than `most`, some share above that.
+double mask_disagreement(const FragmentLibrary& library, const std::vector<DiscPoint>& points, const SourceCandidate& c,
+                         double most) {
+  if (points.empty()) return 1.0;
+  const Fragment& source = library.fragments[c.source];
+  const double count = static_cast<double>(points.size()), most_bad = most * count + 0.5;
+  double bad = 0.0;
+  for (const auto& [offset, b] : points) {
+    const Vec2 p = source.centre + photo_offset(c, offset);
+    const int u = round_to_int(p.x()), v = round_to_int(p.y());
+    if (!library.lab.contains(u, v) || library.unusable(u, v)) {
+      bad += 1.0;
+    } else {
+      const float a = library.field.signed_distance(u, v);
       if ((a > 0) != (b > 0) && (std::abs(a) > 1 || std::abs(b) > 1)) {
         bad += 1.0;
       } else if (b > 2 && library.shadow(u, v)) {
         bad += 0.5;
       }
     }
+    if (bad > most_bad) break;
   }
-  return count > 0 ? bad / count : 1.0;
+  return bad / count;
 }
 
 double tone_difference(const CandidateContext& context, const Fragment& target, const Fragment& source) {
   if (context.canvas_low.empty() || target.kind == FragmentKind::Interior) return 0.0;
   auto at = [](const ColorImage& image, const Vec2& p) {
-    return image.clamped(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+    return image.clamped(round_to_int(p.x()), round_to_int(p.y()));
   };
   const Rgb d = at(context.canvas_low, target.centre) - at(context.photo_low, source.centre);
   return (d.r * d.r + d.g * d.g + d.b * d.b) / 100.0;
+}
+
+// Adds what takes long to find: other branches in the disc, another tone, the seed's whim. Only the best kKept are
+// wanted, so that the disc of those which cannot be among them is not looked at to its end.
+void add_dear_terms(const CandidateContext& context, const Fragment& target, int target_index,
+                    std::vector<SourceCandidate>& candidates) {
+  const PlacementOptions& options = context.options;
+  struct Rest {
+    double least;  // cost, were there no disagreement
+    double tone, whim;
+    std::size_t index;
+  };
+  std::vector<Rest> rest;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const SourceCandidate& c = candidates[i];
+    const double u = hash01(context.seed, target_index, 4 * c.source + 2 * c.backwards + c.mirrored);
+    const double tone = options.colour_weight * tone_difference(context, target, context.library.fragments[c.source]);
+    const double whim = options.variation * -std::log(-std::log(u * 0.999 + 0.0005));
+    rest.push_back({c.cost + tone - whim, tone, whim, i});
+  }
+  std::sort(rest.begin(), rest.end(),
+            [](const Rest& a, const Rest& b) { return a.least != b.least ? a.least < b.least : a.index < b.index; });
+  const std::vector<DiscPoint> points = disc_points(context, target);
+  std::vector<double> best;  // costs of the best kKept so far, a heap with the worst on top
+  for (const Rest& r : rest) {
+    SourceCandidate& c = candidates[r.index];
+    constexpr double kSure = 1e-9;  // more than sums differ by their order
+    const bool full = best.size() == kKept;
+    const double spare = full ? best.front() - r.least + kSure * (1.0 + std::abs(best.front()))
+                              : std::numeric_limits<double>::infinity();
+    const double most = options.mask_weight > 0.0 ? std::max(0.0, spare / options.mask_weight)
+                                                  : std::numeric_limits<double>::infinity();
+    c.disagreement = spare < 0.0 ? 1.0 : mask_disagreement(context.library, points, c, most);
+    c.cost += options.mask_weight * c.disagreement;
+    c.cost += r.tone;
+    c.cost -= r.whim;
+    if (spare < 0.0) c.cost = std::numeric_limits<double>::infinity();
+    best.push_back(c.cost);
+    std::push_heap(best.begin(), best.end());
+    if (best.size() > kKept) std::pop_heap(best.begin(), best.end()), best.pop_back();
+  }
 }
 
 }  // namespace
@@ -235,15 +296,12 @@ std::vector<SourceCandidate> rank_candidates(const CandidateContext& context, co
   if (candidates.empty() && target.kind == FragmentKind::Along)
     candidates = match_shapes(context, target, target_index, true);
   keep_best(candidates, kShapeSurvivors);
-  const PlacementOptions& options = context.options;
-  if (options.paper_greedy) return candidates;
   for (SourceCandidate& c : candidates) {
-    c.disagreement = mask_disagreement(context, target, c);
-    c.cost += options.mask_weight * c.disagreement;
-    c.cost += options.colour_weight * tone_difference(context, target, context.library.fragments[c.source]);
-    const double u = hash01(context.seed, target_index, 4 * c.source + 2 * c.backwards + c.mirrored);
-    c.cost -= options.variation * -std::log(-std::log(u * 0.999 + 0.0005));
+    c.cosine = std::cos(c.angle);
+    c.sine = std::sin(c.angle);
   }
+  if (context.options.paper_greedy) return candidates;
+  add_dear_terms(context, target, target_index, candidates);
   keep_best(candidates, kKept);
   return candidates;
 }
@@ -265,8 +323,8 @@ double overlap_difference(const FragmentLibrary& library, const ColorImage& phot
       const Vec2 w = target_a.centre + (middle + 0.15 * k * depth) * along + (half_height * i / 4.5) * across;
       const Vec2 p = library.fragments[a.source].centre + photo_offset(a, w - target_a.centre);
       const Vec2 q = library.fragments[b.source].centre + photo_offset(b, w - target_b.centre);
-      const int px = static_cast<int>(std::lround(p.x())), py = static_cast<int>(std::lround(p.y()));
-      const int qx = static_cast<int>(std::lround(q.x())), qy = static_cast<int>(std::lround(q.y()));
+      const int px = round_to_int(p.x()), py = round_to_int(p.y());
+      const int qx = round_to_int(q.x()), qy = round_to_int(q.y());
       if (!photo.contains(px, py) || !photo.contains(qx, qy)) continue;
       const Rgb d = photo(px, py) - photo(qx, qy);
       mean = mean + d;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ramify/core/rounding.h"
 #include "ramify/image/sample.h"
 
 namespace ramify {
@@ -51,7 +52,7 @@ Patch warp_patch(const ColorImage& photo, const FragmentLibrary& library, const 
       const Vec2 p(patch.left + x, patch.top + y);
       if ((p - placement.centre).norm() > reach) continue;
       const Vec2 q = placement.photo_from_canvas(p);
-      const int u = static_cast<int>(std::lround(q.x())), v = static_cast<int>(std::lround(q.y()));
+      const int u = round_to_int(q.x()), v = round_to_int(q.y());
       if (!photo.contains(u, v) || library.unusable(u, v)) continue;
       patch.color(x, y) = sample_lanczos3(photo, q);
       patch.signed_distance(x, y) = sample_bilinear(library.field.signed_distance, q);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "ramify/core/rounding.h"
 #include "ramify/image/cv_view.h"
 
 namespace ramify {
@@ -46,8 +47,8 @@ template <class T>
 T lanczos3(const Image<T>& image, const Vec2& p) {
   const double fx = std::floor(p.x()), fy = std::floor(p.y());
   const int x = static_cast<int>(fx), y = static_cast<int>(fy);
-  const auto& wx = lanczos_table()[static_cast<int>(std::lround((p.x() - fx) * kLanczosSteps))];
-  const auto& wy = lanczos_table()[static_cast<int>(std::lround((p.y() - fy) * kLanczosSteps))];
+  const auto& wx = lanczos_table()[round_to_int((p.x() - fx) * kLanczosSteps)];
+  const auto& wy = lanczos_table()[round_to_int((p.y() - fy) * kLanczosSteps)];
   const bool inside = x >= 2 && y >= 2 && x + 3 < image.width() && y + 3 < image.height();
   T out{};
   for (int j = 0; j < 6; ++j) {
