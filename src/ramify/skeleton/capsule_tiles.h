@@ -12,9 +12,21 @@
 
 namespace ramify {
 
+// A capsule with what capsule_hit works out of it alone: the same hits, to the bit, for a part of the time.
+class RoundCone {
+ public:
+  explicit RoundCone(const BodyCapsule& capsule);
+  CapsuleHit hit(const Vec2& point) const;
+
+ private:
+  Vec2 a_, axis_;  // px
+  double length_, radius_, growth_, slope_, lean_;
+};
+
 struct CapsuleTile {
   int x = 0, y = 0, width = 0, height = 0;  // px; the tile covers [x - 0.5, x + width - 0.5)
   std::span<const int> candidates;          // indices of capsules, ascending; empty when all are farther than the reach
+  std::span<const RoundCone> cones;         // of all capsules
 };
 
 // Calls `visit` once for every tile of the canvas, from several threads; it may write only pixels of its tile. Pixels
@@ -26,7 +38,7 @@ struct NearestCapsule {
   int capsule = kNone;
   CapsuleHit hit;
 };
-// Over the candidates; the lowest index wins ties.
-NearestCapsule nearest_capsule(const std::vector<BodyCapsule>& capsules, std::span<const int> candidates, const Vec2& point);
+// Over the tile's candidates; the lowest index wins ties.
+NearestCapsule nearest_capsule(const CapsuleTile& tile, const Vec2& point);
 
 }  // namespace ramify

@@ -19,7 +19,7 @@ void visit_pixels(const std::vector<BodyCapsule>& capsules, Size canvas, double 
     if (tile.candidates.empty()) return;
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
       for (int x = tile.x; x < tile.x + tile.width; ++x) {
-        visit(x, y, nearest_capsule(capsules, tile.candidates, Vec2(x, y)), tile.candidates);
+        visit(x, y, nearest_capsule(tile, Vec2(x, y)), tile.candidates);
       }
     }
   });
