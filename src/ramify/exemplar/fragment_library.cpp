@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ramify/core/error.h"
+#include "ramify/core/parallel.h"
 #include "ramify/exemplar/shore.h"
 #include "ramify/image/color.h"
 #include "ramify/image/filter.h"
@@ -116,6 +117,7 @@ FragmentLibrary make_fragment_library(const Exemplar& exemplar, Mask shadow, Mas
   library.shadow = shadow.empty() ? Mask(size) : std::move(shadow);
   library.unusable = unusable.empty() ? Mask(size) : std::move(unusable);
   for (int c = 0; c < static_cast<int>(library.curves.size()); ++c) {
+    check_cancel();
     if (library.curves[c].count() < 2) continue;
     for (const int vertex : source_vertices(library.curves[c], options)) {
       library.fragments.push_back(along_fragment(library.curves, c, vertex, options));
@@ -126,9 +128,10 @@ FragmentLibrary make_fragment_library(const Exemplar& exemplar, Mask shadow, Mas
     throw InputError(exemplar.photo.name, "the annotation has no branch longer than a point, so there is nothing to cut; "
                                           "annotate at least one branch");
   }
-  for (Fragment& f : library.fragments) {
+  parallel_for(static_cast<int>(library.fragments.size()), [&](int i) {
+    Fragment& f = library.fragments[static_cast<std::size_t>(i)];
     if (f.kind < FragmentKind::Bank) f.contrast = measure_contrast(library, f);
-  }
+  }, 16);
   add_wide_sources(library, options);
   measure_radii(library);
   library.light_strength = measure_light(library);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ramify/core/parallel.h"
 #include "ramify/geometry/polyline.h"
 
 namespace ramify {
@@ -160,6 +161,7 @@ bool PathBender::grow(const Course& course, std::span<const double> arcs, std::s
   const std::size_t most = static_cast<std::size_t>(4.0 * length / step) + 16;
   double progress = 0.0;
   while (length - progress > 0.6 * step && branch.points.size() < most) {
+    check_cancel();
     const int count =
         std::clamp(static_cast<int>(std::lround((length - progress) / step)), 1, style_.bending.extension);
     std::vector<Choice> choices = short_list(branch, course, progress, count);
@@ -222,6 +224,7 @@ std::vector<Vec2> PathBender::bend(std::span<const Vec2> points, std::span<const
                                     {turn_spread_, 0.3, 0.05});
     if (most > kMostTurn * turn_spread_) continue;
     const auto strayed = [&](const Vec2& p) {
+      check_cancel();
       return (p - course.point_at(course.arc_at(p, 0.0, course.length()))).norm() > kStray * valley_;
     };
     if (std::any_of(branch.points.begin(), branch.points.end(), strayed)) continue;

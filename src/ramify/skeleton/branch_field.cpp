@@ -54,8 +54,15 @@ class NearestVertex {
       }
     }
     const int width = field_.curve.width(), height = field_.curve.height();
-    for (int y = 0; y < height; ++y) sweep_row(y, -1, width, height);
-    for (int y = height - 1; y >= 0; --y) sweep_row(y, 1, width, height);
+    constexpr int kRows = 64;  // between two looks for a cancel
+    for (int y = 0; y < height; ++y) {
+      if (y % kRows == 0) check_cancel();
+      sweep_row(y, -1, width, height);
+    }
+    for (int y = height - 1; y >= 0; --y) {
+      if (y % kRows == 0) check_cancel();
+      sweep_row(y, 1, width, height);
+    }
   }
 
  private:
