@@ -50,7 +50,7 @@ class Paint(CliTest):
 
     def test_librsvg_sees_what_we_paint(self):
         for style, extra in (("ink", ["--palette", "coral"]), ("vine", ["--flowers", "0.4"]), ("vine", ["--leaf", "ivy", "--phyllotaxis", "spiral"]),
-                             ("watercolor", []), ("woodcut", ["--background", "#f4ecd8", "--hatching", "0"])):
+                             ("woodcut", ["--background", "#f4ecd8", "--hatching", "0"])):
             for scale in (1, 3):
                 svg, png = self.path("a.svg"), self.path("a.png")
                 common = ["--style", style, "--scale", scale, *extra]
@@ -177,12 +177,42 @@ class Paint(CliTest):
             self.ok("replay", self.path("again." + kind), "-o", self.path("replayed." + kind))
             self.assertEqual(self.digest(self.path("again." + kind)), self.digest(self.path("replayed." + kind)))
 
+    def test_watercolour_dries_dark_along_its_rim_and_in_the_papers_hollows(self):
+        broad = self.path("t.swc", "# ramify canvas 400 200\n1 0 40 100 0 30 -1\n2 0 360 100 0 30 1\n")
+        options = ["--style", "watercolor", "--palette", "#806040", "--smooth", "0", "--taper", "0"]
+
+        def painted(*extra):
+            self.ok("paint", broad, "-o", self.path("o.png"), *options, *extra)
+            return numpy.asarray(Image.open(self.path("o.png")).convert("RGB"), float) / 255
+
+        white = painted("--background", "#ffffff")
+        light = white[:, 120:320].mean(axis=2)
+        top = numpy.argmax(light < 0.97, axis=0)  # the strokes' rim in every column, ragged
+        rim = numpy.mean([light[t + 1:t + 3, x].mean() for x, t in enumerate(top)])
+        inside = numpy.mean([light[t + 6:t + 10, x].mean() for x, t in enumerate(top)])
+        self.assertLess(rim, inside - 0.05)
+        self.assertGreater(light[90:110].std(), 0.02)  # pigment in the paper's hollows
+        self.assertEqual(white[5, 5].tolist(), [1, 1, 1])  # the paper stays
+        # Pigment is transparent: what it takes from white it takes from any ground, channel by channel.
+        ground = numpy.array([0x40, 0xa0, 0xe0]) / 255
+        self.assertLess(numpy.abs(painted("--background", "#40a0e0") - white * ground).max(), 1.6 / 255)
+        # Without a ground it looks on white as it does on white.
+        self.ok("paint", broad, "-o", self.path("o.png"), *options)
+        bare = over(numpy.asarray(Image.open(self.path("o.png")).convert("RGBA"), float) / 255, 1.0)
+        self.assertLess(numpy.abs(bare - white).max(), 2.6 / 255)
+        # The paper is the canvas's: twice as large is the same picture.
+        self.ok("paint", broad, "-o", self.path("o.png"), *options, "--background", "#ffffff", "--scale", "2")
+        halved = numpy.asarray(Image.open(self.path("o.png")).convert("RGB").resize((400, 200), Image.BOX), float) / 255
+        self.assertLess(numpy.abs(halved - white).mean(), 0.01)
+        self.assertGreater(numpy.corrcoef(halved[90:110].mean(axis=2).ravel(), white[90:110].mean(axis=2).ravel())[0, 1], 0.9)
+
     def test_washes_do_not_darken_where_branches_overlap(self):
         tree = self.path("t.swc", "# ramify canvas 200 200\n1 0 20 100 0 12 -1\n2 0 100 100 0 12 1\n3 0 180 100 0 12 2\n4 0 100 20 0 12 2\n")
         self.ok("paint", tree, "-o", self.path("o.svg"), "--style", "watercolor", "--background", "#ffffff")
         root = ET.parse(self.path("o.svg")).getroot()
         washes = [g for g in root.iter(SVG + "g") if g.get("opacity")]
         self.assertGreaterEqual(len(washes), 2)
+        self.assertTrue(all("multiply" in g.get("style", "") for g in washes))
         self.assertTrue(all(p.get("fill-opacity") is None for g in washes for p in g))
 
     def test_pillow_plays_the_animation(self):

@@ -22,15 +22,16 @@ struct Shape {
 
 enum class Blend {
   Over,  // paint, in encoded values as drawing programs do
-  Add    // light: added in linear light where pixels are made, "screen" in SVG
+  Add,   // light: added in linear light where pixels are made, "screen" in SVG
+  Wash   // watercolour: takes light away (wash.h) where pixels are made, "multiply" in SVG
 };
 
 struct Layer {
   std::string name;           // as a drawing program shows it
   std::vector<Shape> shapes;  // bottom first
   Blend blend = Blend::Over;
-  double blur = 0.0;          // px, Gaussian; for Add only
-  double opacity = 1.0;       // 0..1, of the layer as one; for Over only
+  double blur = 0.0;     // px, Gaussian; Add: of the light; Wash: how far water carries pigment, in pixels only
+  double opacity = 1.0;  // 0..1, of the layer as one; not for Add
 };
 
 struct Drawing {

@@ -117,7 +117,7 @@ std::string definitions(const Drawing& drawing) {
   std::string out;
   for (std::size_t i = 0; i < drawing.layers.size(); ++i) {
     const Layer& layer = drawing.layers[i];
-    if (layer.blur <= 0.0) continue;
+    if (layer.blend != Blend::Add || layer.blur <= 0.0) continue;
     out += "<filter id=\"" + light_id(i) +
            "\" filterUnits=\"userSpaceOnUse\" color-interpolation-filters=\"sRGB\" x=\"0\" y=\"0\" width=\"" +
            std::to_string(drawing.size.width) + "\" height=\"" + std::to_string(drawing.size.height) +
@@ -140,8 +140,9 @@ std::string layer_group(Layer layer, std::size_t index) {
                     layer.name + "\"";
   if (one_color && !layer.shapes.empty()) out += " fill=\"" + hex_color(layer.shapes.front().color) + "\"";
   if (layer.blend == Blend::Add) out += " style=\"mix-blend-mode:screen\"";
+  if (layer.blend == Blend::Wash) out += " style=\"mix-blend-mode:multiply\"";
   if (layer.opacity < 1.0) out += " opacity=\"" + number_text(std::round(1000.0 * layer.opacity) / 1000.0) + "\"";
-  if (layer.blur > 0.0) out += " filter=\"url(#" + light_id(index) + ")\"";
+  if (layer.blend == Blend::Add && layer.blur > 0.0) out += " filter=\"url(#" + light_id(index) + ")\"";
   out += ">\n";
   for (const Shape& shape : layer.shapes) out += path_element(shape, !one_color);
   return out + "</g>\n";

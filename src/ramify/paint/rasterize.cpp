@@ -14,6 +14,7 @@
 #include "ramify/image/filter.h"
 #include "ramify/paint/drawing.h"
 #include "ramify/paint/exposure.h"
+#include "ramify/paint/wash.h"
 
 namespace ramify {
 namespace {
@@ -96,10 +97,11 @@ struct BandShape {
   Box box;
 };
 
-// Shapes that are laid over what is there with one opacity.
+// Shapes that are laid over what is there with one opacity, or the density of what is washed over it.
 struct BandLayer {
   std::vector<BandShape> shapes;
   float opacity = 1.0f;
+  ColorImage density;
 };
 
 std::vector<BandShape> shapes_with_boxes(std::span<const Layer> layers, Blend blend, const View& view) {
@@ -126,7 +128,24 @@ void paint_band(const std::vector<BandShape>& shapes, const View& view, const Bo
   }
 }
 
+// Transparent pigment. Without a ground, the opacity that shows the same on white.
+Premultiplied washed(const Premultiplied& below, const Rgb& density) {
+  const Rgb kept{std::exp(-density.r), std::exp(-density.g), std::exp(-density.b)};
+  const float least = std::min({kept.r, kept.g, kept.b});
+  const float alpha = 1.0f - (1.0f - below.alpha) * least;
+  Premultiplied out{{}, alpha};
+  for (int k = 0; k < 3; ++k) out.color[k] = (below.color[k] + 1.0f - below.alpha) * kept[k] - (1.0f - alpha);
+  return out;
+}
+
 void paint_layer(const BandLayer& layer, const View& view, const Box& band, Image<Premultiplied>& pixels) {
+  if (!layer.density.empty()) {
+    for (int y = band.y0; y < band.y1; ++y) {
+      for (int x = band.x0; x < band.x1; ++x)
+        pixels(x, y - band.y0) = washed(pixels(x, y - band.y0), layer.density(x, y));
+    }
+    return;
+  }
   if (layer.opacity >= 1.0f) {
     paint_band(layer.shapes, view, band, pixels);
     return;
@@ -139,6 +158,27 @@ void paint_layer(const BandLayer& layer, const View& view, const Box& band, Imag
     const float keep = 1.0f - layer.opacity * top.alpha;
     p = {keep * p.color + layer.opacity * top.color, keep * p.alpha + layer.opacity * top.alpha};
   }
+}
+
+ColorImage density_of(const Layer& layer, const RasterOptions& options, const View& view, const Monitor& monitor) {
+  WetLayer wet{ColorImage(options.size), ScalarImage(options.size), layer.blur};
+  const std::vector<BandShape> shapes = shapes_with_boxes({&layer, 1}, Blend::Wash, view);
+  const int bands = (options.size.height + kBand - 1) / kBand;
+  parallel_for(bands, [&](int b) {
+    monitor.check();
+    const Box band{0, b * kBand, options.size.width, std::min(options.size.height, (b + 1) * kBand)};
+    Image<Premultiplied> pixels(options.size.width, band.y1 - band.y0);
+    paint_band(shapes, view, band, pixels);
+    for (int y = band.y0; y < band.y1; ++y) {
+      for (int x = 0; x < options.size.width; ++x) {
+        wet.color(x, y) = pixels(x, y - band.y0).color;
+        wet.alpha(x, y) = pixels(x, y - band.y0).alpha;
+      }
+    }
+  });
+  ColorImage density = optical_density(wet, {options.scale, options.shift}, monitor);
+  for (Rgb& d : density.pixels()) d = static_cast<float>(layer.opacity) * d;
+  return density;
 }
 
 // Light of all Add layers, linear.
@@ -199,7 +239,9 @@ Raster rasterize(const Drawing& drawing, const RasterOptions& options, const Mon
   const ColorImage light = emitted_light(drawing, options, view, monitor);
   std::vector<BandLayer> layers;
   for (const Layer& layer : drawing.layers) {
-    if (layer.blend == Blend::Over) layers.push_back({shapes_with_boxes({&layer, 1}, Blend::Over, view), static_cast<float>(layer.opacity)});
+    if (layer.blend == Blend::Over)
+      layers.push_back({shapes_with_boxes({&layer, 1}, Blend::Over, view), static_cast<float>(layer.opacity), {}});
+    if (layer.blend == Blend::Wash) layers.push_back({{}, 1.0f, density_of(layer, options, view, monitor)});
   }
   Raster out{ColorImage(options.size), Mask(options.size)};
   const int width = options.size.width, bands = (options.size.height + kBand - 1) / kBand;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thin washes: a first one over everything, pale and a little wider than the branches, pigment that gathered along its rim,
-// and a second, darker one on the shaded side of what is thick. Every wash is one layer with one opacity, so that branches
-// which overlap within it do not darken each other.
+// Washes over each other: water that ran out of the strokes, pale and wide; the strokes; their shaded side once more.
+// Each is one wet layer, so branches that overlap within it run together; layers darken each other as glazes do. What
+// water does to pigment is made where pixels are (wash.h).
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,9 @@
 namespace ramify {
 namespace {
 
-constexpr double kSwell = 0.16;        // share of the radius by which water spreads and draws back
+constexpr double kSwell = 0.22;        // share of the radius by which water spreads and draws back
 constexpr double kWave = 7.0;          // px or radii, whichever is more, from swell to swell
+constexpr double kRun = 110.0;         // px from where water runs out to where it does not
 constexpr double kThick = 2.2;         // px, radius from which a branch gets the second wash
 
 // Smooth noise along a line, -1..1: values at whole numbers, joined by cosines.
@@ -46,27 +47,23 @@ Stroke beyond_parent(Stroke stroke) {
   return stroke;
 }
 
-// What lies between a shape's outline and the same shape drawn in by `width`: the inner loop runs the other way.
-Shape rim(const Stroke& stroke, const Rgb& color, double tolerance, double width) {
-  Shape outer = stroke_shape(stroke, color, tolerance), inner = stroke_shape(stroke, color, tolerance, -width);
-  for (const std::vector<CubicBezier>& loop : inner.loops) {
-    std::vector<CubicBezier> back;
-    for (auto curve = loop.rbegin(); curve != loop.rend(); ++curve) back.push_back({(*curve)[3], (*curve)[2], (*curve)[1], (*curve)[0]});
-    outer.loops.push_back(std::move(back));
+// Water that ran out of a stroke in places.
+Stroke flooded(const Stroke& stroke, std::uint64_t seed) {
+  Stroke out = stroke;
+  const std::vector<double> arcs = arc_lengths(stroke.points);
+  for (std::size_t i = 0; i < out.points.size(); ++i) {
+    const double run = 0.5 + 0.5 * noise_at(seed, arcs[i] / kRun), side = noise_at(seed + 1, 0.7 * arcs[i] / kRun);
+    out.radii[i] = out.radii[i] * (1.1 + 0.8 * run) + 6.5 * run * run * run + 0.5;
+    out.points[i] += run * Vec2(2.5 * side, 3.0 * run);  // and downwards
   }
-  return outer;
+  return out;
 }
 
 }  // namespace
 
 std::vector<Layer> watercolor_layers(const PaintScene& scene, const std::vector<Stroke>& strokes, const Monitor& monitor) {
-  Layer wash, edge, glaze;
-  wash.name = "wash";
-  edge.name = "pigment";
-  glaze.name = "second wash";
-  wash.opacity = 0.62;
-  edge.opacity = 0.28;
-  glaze.opacity = 0.4;
+  Layer water{"water", {}, Blend::Wash, 2.2, 0.55}, wash{"wash", {}, Blend::Wash, 1.4, 0.95},
+      glaze{"second wash", {}, Blend::Wash, 1.0, 0.5};
   int deepest = 1;
   for (const Stroke& stroke : strokes) deepest = std::max(deepest, stroke.order);
   const double tolerance = scene.options.tolerance;
@@ -77,21 +74,17 @@ std::vector<Layer> watercolor_layers(const PaintScene& scene, const std::vector<
     const std::uint64_t seed = Rng(scene.seed).child("wash", s).next();
     const double tone = static_cast<double>(stroke.order) / deepest + 0.25 * noise_at(seed, 0.5);
     const Rgb color = color_along(scene.colors, tone), dark = mix(color, scene.colors.front(), 0.7);
-    const Stroke first = washed(stroke, seed, 1.08, Vec2::Zero());
-    Shape shape = stroke_shape(first, color, tolerance);
-    if (!shape.loops.empty()) wash.shapes.push_back(std::move(shape));
+    const auto add = [&](Layer& layer, const Stroke& shape, const Rgb& paint) {
+      Shape out = stroke_shape(shape, paint, tolerance);
+      if (!out.loops.empty()) layer.shapes.push_back(std::move(out));
+    };
+    add(water, flooded(stroke, seed + 2), mix(color, scene.colors.back(), 0.6f));
+    add(wash, washed(stroke, seed, 1.3, Vec2::Zero()), color);
     const double widest = *std::max_element(stroke.radii.begin(), stroke.radii.end());
-    if (widest > 1.0) {
-      Shape ring = rim(beyond_parent(first), dark, tolerance, std::clamp(0.25 * widest, 0.4, 1.4));
-      if (!ring.loops.empty()) edge.shapes.push_back(std::move(ring));
-    }
-    if (widest > kThick) {
-      Shape shade = stroke_shape(washed(beyond_parent(stroke), seed + 1, 0.55, Vec2(0.32, 0.24)), dark, tolerance);
-      if (!shade.loops.empty()) glaze.shapes.push_back(std::move(shade));
-    }
+    if (widest > kThick) add(glaze, washed(beyond_parent(stroke), seed + 1, 0.55, Vec2(0.32, 0.24)), dark);
   }
   std::vector<Layer> layers;
-  for (Layer* layer : {&wash, &glaze, &edge}) {
+  for (Layer* layer : {&water, &wash, &glaze}) {
     if (!layer->shapes.empty()) layers.push_back(std::move(*layer));
   }
   return layers;

@@ -18,7 +18,7 @@ namespace ramify {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kBytesPerPixel = 72;  // picture, light and its blur
+constexpr int kBytesPerPixel = 112;  // picture, light or washes and their blur
 
 bool is_svg_name(const std::string& path) { return fs::path(path).extension() == ".svg"; }
 
