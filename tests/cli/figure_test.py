@@ -152,6 +152,20 @@ class Figure(CliTest):
         self.ok("figure", white, "--invert", "-o", out)
         os.remove(out)
         self.fails(3, "smaller than 3 px", "figure", dot, "-o", out)
+        many = Image.new("L", (640, 512), 255)  # 500 parts: 100 of one pixel, 400 squares, of these 200 with a hole
+        draw = ImageDraw.Draw(many)
+        for i in range(500):
+            x, y = 5 + 25 * (i % 25), 5 + 25 * (i // 25)
+            draw.rectangle((x, y, x, y) if i % 5 == 0 else (x, y, x + 13, y + 13), fill=0)
+            if i % 5 in (1, 3):
+                draw.rectangle((x + 4, y + 4, x + 9, y + 9), fill=255)
+        many.save(self.path("many.png"))
+        done = self.ok("figure", self.path("many.png"), "--points", "3000", "-o", self.path("many.json"))
+        self.assertIn("100 parts of the shape smaller than 3 px are left out, 400 are filled", done.stderr)
+        tree = json.loads(pathlib.Path(self.path("many.json")).read_text())["nodes"]
+        self.assertEqual(sum(node[4] is None or node[4] < 0 for node in tree), 400)
+        near = ndimage.binary_dilation(numpy.asarray(many) == 0, numpy.ones((3, 3)))
+        self.assertTrue(all(near[round(node[1]), round(node[0])] for node in tree))  # holes stay empty
         self.fails(3, "font", "figure", "--text", "a", "--font", "No Such Font At All", "-o", out)
         self.fails(3, "U+", "figure", "--text", "\U0001F9FF", "-o", out)
         self.fails(2, "empty", "figure", "--text", " ", "-o", out)

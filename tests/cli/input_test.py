@@ -9,6 +9,9 @@ import subprocess
 import unittest
 import zlib
 
+import numpy
+from PIL import Image
+
 from harness import BIN, CliTest, png
 
 
@@ -150,6 +153,17 @@ class MapsAndSkeletons(CliTest):
         rows = [line.split() for line in text.splitlines() if not line.startswith("#")]
         self.assertGreater(len(rows), 10)
         self.assertTrue(all(float(row[2]) > 119 for row in rows))
+        # Three channels that say the same, and real numbers with gaps, grow the same.
+        grown = self.digest(self.path("a.swc"))
+        Image.open(self.path("half.png")).convert("L").save(self.path("grey.png"))
+        values = numpy.full((90, 120), numpy.nan, numpy.float32)
+        values[:, 61:] = 1.0
+        Image.fromarray(values).save(self.path("gaps.tif"))
+        for name in ("grey.png", "gaps.tif"):
+            self.ok("grow", self.exemplar, "-o", "a.swc", "--density", name)
+            self.assertEqual(self.digest(self.path("a.swc")), grown, name)
+        Image.fromarray(numpy.full((90, 120), numpy.nan, numpy.float32)).save(self.path("none.tif"))
+        self.fails(3, "nothing to grow", "grow", self.exemplar, "-o", "b.swc", "--density", "none.tif")
 
     def test_guides(self):
         self.path("bad.svg", '<!DOCTYPE svg [<!ENTITY a "b">]><svg><text>&a;</text></svg>')

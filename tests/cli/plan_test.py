@@ -174,6 +174,7 @@ class Plan(CliTest):
         self.path("empty.csv", "# nothing\n")
         self.path("black.png", png(32, 32, lambda x, y: (0, 0, 0)))
         self.path("grey.png", png(32, 32))
+        self.path("dark.png", png(32, 32, lambda x, y: (0, 0, 0)))
         self.fails(3, "bad.csv:3", "dendrite", "--endpoints", "bad.csv", *out)
         self.fails(3, "no point", "dendrite", "--endpoints", "empty.csv", *out)
         self.fails(3, "none.csv", "dendrite", "--endpoints", "none.csv", *out)
@@ -185,6 +186,9 @@ class Plan(CliTest):
         self.fails(2, "--attenuation", "dendrite", "--attenuation", "1", *out)
         self.fails(5, "--limit-pixels", "dendrite", "--size", "40000x40000", *out)
         self.fails(5, "bytes", "dendrite", "--size", "1000000x1000000", *out)
+        self.fails(5, "bytes", "stylize", "--preset", "tree", "--size", "1000000x1000000", *out)
+        self.fails(5, "--limit-pixels", "stylize", "grey.png", "--scale", "100", "--limit-pixels", "1e5", *out)
+        self.fails(3, "no pixel that paths may use", "stylize", "grey.png", "--mask", "dark.png", *out)
         self.fails(2, "--size", "dendrite", "--size", "64", *out)
         for count in ("0", "-1", "9223372036854775808", "many", "1e30", "nan"):
             self.fails(2, "--count-endpoints", "dendrite", "--count-endpoints", count, *out)

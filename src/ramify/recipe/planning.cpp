@@ -71,8 +71,15 @@ Size canvas_size(const std::string& text) {
   throw OptionError("size", "'" + printable(text, 60) + "'", "expected WIDTHxHEIGHT in px, such as 1600x1076");
 }
 
+void check_nodes(double width, double height, const LoadLimits& limits) {
+  if (width * height > limits.pixels)
+    throw LimitError("the lattice would have " + number_text(width * height) + " nodes and need " +
+                     number_text(kBytesPerNode * width * height) +
+                     " bytes, more than --limit-pixels allows; make the canvas smaller or --pitch larger");
+}
+
 void set_nodes(Lattice& lattice, double width, double height, const LoadLimits& limits) {
-  if (width * height > limits.pixels) throw LimitError("the lattice would have " + number_text(width * height) + " nodes and need " + number_text(kBytesPerNode * width * height) + " bytes, more than --limit-pixels allows; raise --pitch or make the canvas smaller");
+  check_nodes(width, height, limits);
   lattice.width = std::max(1, static_cast<int>(std::lround(width)));
   lattice.height = std::max(1, static_cast<int>(std::lround(height)));
 }
@@ -232,6 +239,7 @@ std::optional<Vec2> root_of(const StylizeRequest& request, double scale, Size si
 
 void grow_layers(const StylizeRequest& request, double scale, std::uint64_t seed, const Monitor& monitor, StylizedPicture& out) {
   const Size size = !out.importance.empty() ? out.importance.size() : request.size.empty() ? Size{900, 1100} : canvas_size(request.size);
+  check_nodes(size.width, size.height, request.limits);
   std::optional<PictureTree> first;
   for (int i = 0; i < request.layers; ++i) {
     const Monitor part = monitor.stage("tree", static_cast<double>(i) / request.layers, static_cast<double>(i + 1) / request.layers);
