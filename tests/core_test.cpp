@@ -16,6 +16,7 @@
 #include "ramify/core/error.h"
 #include "ramify/core/monitor.h"
 #include "ramify/core/options.h"
+#include "ramify/core/ordered_tasks.h"
 #include "ramify/core/parallel.h"
 #include "ramify/core/random.h"
 #include "ramify/core/rounding.h"
@@ -253,4 +254,31 @@ TEST_CASE("rounding to a whole number is lround's") {
     const double v = rng.uniform(-5000.0, 5000.0), half = std::floor(v) + 0.5;
     for (const double w : {v, half, std::nextafter(half, 1e9), std::nextafter(half, -1e9)}) check(w);
   }
+}
+
+TEST_CASE("tasks wait for those before them and each runs once with any number of threads") {
+  Rng rng(41);
+  for (const int threads : {1, 2, 5}) {
+    set_thread_count(threads);
+    for (int trial = 0; trial < 20; ++trial) {
+      const int count = rng.below(200);
+      std::vector<std::vector<int>> after(static_cast<std::size_t>(count));
+      for (int i = 1; i < count; ++i) {
+        for (int k = rng.below(4); k > 0; --k) after[i].push_back(rng.below(i));
+      }
+      std::vector<std::atomic<int>> ended(static_cast<std::size_t>(count));
+      std::atomic<int> early = 0;
+      run_in_order(after, [&](int i) {
+        for (const int j : after[i]) early += ended[j] != 1;
+        ++ended[i];
+      });
+      CHECK(early == 0);
+      for (const auto& n : ended) CHECK(n == 1);
+    }
+    std::atomic<int> begun = 0;
+    const std::vector<std::vector<int>> chain{{}, {0}, {1}, {2}};
+    CHECK_THROWS_AS(run_in_order(chain, [&](int i) { if (++begun; i == 1) throw InputError("", "no"); }), InputError);
+    CHECK(begun == 2);
+  }
+  set_thread_count(0);
 }

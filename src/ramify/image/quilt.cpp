@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "ramify/core/ordered_tasks.h"
 #include "ramify/core/parallel.h"
 #include "ramify/image/color.h"
 #include "ramify/image/filter.h"
@@ -69,6 +71,26 @@ std::vector<std::vector<int>> schedule(const std::vector<Box>& boxes, int side) 
   return levels;
 }
 
+// All boxes level by level, and for each of them the earlier ones it must wait for: those it comes near.
+std::pair<std::vector<int>, std::vector<std::vector<int>>> in_turn(const std::vector<Box>& boxes, const std::vector<std::vector<int>>& levels,
+                                                                  int side) {
+  std::vector<int> order;
+  std::vector<std::vector<int>> after;
+  const int near = 2 * std::max(1, side / 2);
+  for (const std::vector<int>& level : levels) {
+    const std::size_t earlier = order.size();
+    for (const int i : level) {
+      std::vector<int>& waits_for = after.emplace_back();
+      for (std::size_t k = 0; k < earlier; ++k) {
+        const Box &a = boxes[i], &b = boxes[order[k]];
+        if (std::abs(a.tx - b.tx) <= near && std::abs(a.ty - b.ty) <= near) waits_for.push_back(static_cast<int>(k));
+      }
+    }
+    order.insert(order.end(), level.begin(), level.end());
+  }
+  return {order, after};
+}
+
 // Covers the wanted pixels with patches of one size.
 void cover(const QuiltJob& job, const QuiltOptions& options, const Mask& wanted, const ScalarImage& depth, int side,
            Quilt& quilt, const Rng& rng, const Monitor& monitor) {
@@ -78,22 +100,25 @@ void cover(const QuiltJob& job, const QuiltOptions& options, const Mask& wanted,
   PatchSearch search(job, options, side);
   const int base = static_cast<int>(quilt.patches.size());
   quilt.patches.resize(base + boxes.size());
-  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-      const std::vector<int>& level = levels[l];
-      parallel_for(static_cast<int>(level.size()), [&](int k) {
-        monitor.check();
-        const int i = level[k], index = base + i;
-        if (sweep == 0) {
-          quilt.patches[index] = search.choose(quilt, boxes[i].tx, boxes[i].ty, rng.child("patch", index));
-        }
-        expand_patch(job, quilt, index);
-      });
-      if (sweep == 0) {
-        for (const int i : level) search.use(quilt.patches[base + i]);
-      }
-      monitor.report((sweep + (l + 1.0) / levels.size()) / options.sweeps);
-    }
+  // Places are chosen level by level: how often one is in use is known between them only.
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    parallel_for(static_cast<int>(levels[l].size()), [&](int k) {
+      monitor.check();
+      const int i = levels[l][k], index = base + i;
+      quilt.patches[index] = search.choose(quilt, boxes[i].tx, boxes[i].ty, rng.child("patch", index));
+      expand_patch(job, quilt, index);
+    });
+    for (const int i : levels[l]) search.use(quilt.patches[base + i]);
+    monitor.report((l + 1.0) / levels.size() / options.sweeps);
+  }
+  if (options.sweeps == 1) return;
+  const auto [order, after] = in_turn(boxes, levels, side);
+  for (int sweep = 1; sweep < options.sweeps; ++sweep) {
+    std::atomic<int> ended = 0;
+    run_in_order(after, [&, sweep, &turns = order](int k) {
+      expand_patch(job, quilt, base + turns[static_cast<std::size_t>(k)]);
+      monitor.report((sweep + static_cast<double>(++ended) / static_cast<double>(turns.size())) / options.sweeps);
+    });
   }
 }
 

@@ -66,7 +66,7 @@ PatchSearch::PatchSearch(const QuiltJob& job, const QuiltOptions& options, int s
   const int w = job.source.width(), h = job.source.height();
   constexpr std::size_t kAligned = 4;
   stride_ = (kFirstGuide + guides.size() + kAligned - 1) / kAligned * kAligned;
-  described_.resize(stride_ * static_cast<std::size_t>(w) * h);
+  described_ = std::make_unique_for_overwrite<float[]>(stride_ * static_cast<std::size_t>(w) * h);
   parallel_for(
       h,
       [&](int y) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "ramify/image/quilt.h"
 
@@ -56,7 +57,7 @@ class PatchSearch {
     return &described_[(static_cast<std::size_t>(y) * job_.source.width() + x) * stride_];
   }
   std::size_t stride_ = 0;
-  std::vector<float> described_;
+  std::unique_ptr<float[]> described_;
   Image<float> used_;                      // on a grid of cells
   float variance_ = 1.0f;                  // of the descriptors over allowed places
 };

@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <new>
 #include <vector>
 
-#include "ramify/core/parallel.h"
+#include "ramify/core/ordered_tasks.h"
 
 namespace ramify {
 namespace {
@@ -129,36 +130,36 @@ class Expansion {
   std::vector<double> keep_, take_;
 };
 
-// Moves that touch an earlier one wait for it: the batch of a move is one more than the last batch it depends on.
-std::vector<std::vector<int>> independent_batches(std::span<const SeamMove> moves) {
-  std::vector<int> batch(moves.size(), 0);
-  std::vector<std::vector<int>> batches;
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const SeamMove &a = moves[i], &b = moves[j];
-      const bool apart = a.right + 1 < b.left || b.right + 1 < a.left || a.bottom + 1 < b.top || b.bottom + 1 < a.top;
-      if (!apart) batch[i] = std::max(batch[i], batch[j] + 1);
+// Every sweep's moves one after the other; those that touch an earlier one wait for it.
+std::vector<std::vector<int>> waiting_moves(std::span<const SeamMove> moves, int sweeps) {
+  const int count = static_cast<int>(moves.size());
+  const auto touch = [&](int i, int j) {
+    const SeamMove &a = moves[i], &b = moves[j];
+    return !(a.right + 1 < b.left || b.right + 1 < a.left || a.bottom + 1 < b.top || b.bottom + 1 < a.top);
+  };
+  std::vector<std::vector<int>> after(static_cast<std::size_t>(count) * sweeps);
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j) {
+      if (!touch(i, j)) continue;
+      for (int sweep = 0; sweep < sweeps; ++sweep) {
+        const int turn = j < i ? sweep : sweep - 1;  // of the sweep before, those whose turn comes later, and its own
+        if (turn >= 0) after[static_cast<std::size_t>(sweep * count + i)].push_back(turn * count + j);
+      }
     }
-    if (batch[i] >= static_cast<int>(batches.size())) batches.resize(batch[i] + 1);
-    batches[batch[i]].push_back(static_cast<int>(i));
   }
-  return batches;
+  return after;
 }
 
 }  // namespace
 
 LabelImage expand_labels(LabelImage labels, std::span<const SeamMove> moves, const SeamCosts& costs,
                          const SeamOptions& options, const Monitor& monitor) {
-  const std::vector<std::vector<int>> batches = independent_batches(moves);
-  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    for (std::size_t b = 0; b < batches.size(); ++b) {
-      monitor.report((sweep + static_cast<double>(b) / batches.size()) / options.sweeps);
-      parallel_for(static_cast<int>(batches[b].size()), [&](int i) {
-        monitor.check();
-        Expansion(labels, moves[batches[b][i]], costs, options).run();
-      });
-    }
-  }
+  const int count = static_cast<int>(moves.size());
+  std::atomic<int> ended = 0;
+  run_in_order(waiting_moves(moves, options.sweeps), [&](int i) {
+    Expansion(labels, moves[static_cast<std::size_t>(i % count)], costs, options).run();
+    monitor.report(static_cast<double>(++ended) / (count * options.sweeps));
+  });
   return labels;
 }
 

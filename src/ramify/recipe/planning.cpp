@@ -7,6 +7,7 @@
 
 #include "ramify/core/atomic_file.h"
 #include "ramify/core/error.h"
+#include "ramify/core/parallel.h"
 #include "ramify/exemplar/stroke_text.h"
 #include "ramify/image/sample.h"
 #include "ramify/paint/lettering.h"
@@ -258,6 +259,7 @@ void grow_layers(const StylizeRequest& request, double scale, std::uint64_t seed
 }  // namespace
 
 StylizedPicture stylize_picture(const StylizeRequest& request, std::uint64_t seed, const Monitor& monitor) {
+  const CancelScope scope(monitor);
   StylizedPicture out;
   ScaledPicture picture;
   if (!request.picture.empty()) {
