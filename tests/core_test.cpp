@@ -277,7 +277,11 @@ TEST_CASE("tasks wait for those before them and each runs once with any number o
     }
     std::atomic<int> begun = 0;
     const std::vector<std::vector<int>> chain{{}, {0}, {1}, {2}};
-    CHECK_THROWS_AS(run_in_order(chain, [&](int i) { if (++begun; i == 1) throw InputError("", "no"); }), InputError);
+    CHECK_THROWS_AS(run_in_order(chain,
+                                 [&](int i) {
+                                   if (++begun; i == 1) throw InputError("", "no");
+                                 }),
+                    InputError);
     CHECK(begun == 2);
   }
   set_thread_count(0);

@@ -12,7 +12,8 @@ namespace {
 
 class Tasks {
  public:
-  explicit Tasks(const std::vector<std::vector<int>>& after) : waits_for_(after.size()), next_(after.size()), left_(after.size()) {
+  explicit Tasks(const std::vector<std::vector<int>>& after)
+      : waits_for_(after.size()), next_(after.size()), left_(after.size()) {
     for (std::size_t i = 0; i < after.size(); ++i) {
       waits_for_[i] = after[i].size();
       for (const int j : after[i]) next_[static_cast<std::size_t>(j)].push_back(static_cast<int>(i));
@@ -52,8 +53,8 @@ class Tasks {
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<std::size_t> waits_for_;   // how many that have not ended
-  std::vector<std::vector<int>> next_;   // who waits for a task
+  std::vector<std::size_t> waits_for_;  // how many that have not ended
+  std::vector<std::vector<int>> next_;  // who waits for a task
   std::priority_queue<int, std::vector<int>, std::greater<>> ready_;
   std::size_t left_;
   bool failed_ = false;

@@ -72,8 +72,9 @@ std::vector<std::vector<int>> schedule(const std::vector<Box>& boxes, int side) 
 }
 
 // All boxes level by level, and for each of them the earlier ones it must wait for: those it comes near.
-std::pair<std::vector<int>, std::vector<std::vector<int>>> in_turn(const std::vector<Box>& boxes, const std::vector<std::vector<int>>& levels,
-                                                                  int side) {
+std::pair<std::vector<int>, std::vector<std::vector<int>>> in_turn(const std::vector<Box>& boxes,
+                                                                   const std::vector<std::vector<int>>& levels,
+                                                                   int side) {
   std::vector<int> order;
   std::vector<std::vector<int>> after;
   const int near = 2 * std::max(1, side / 2);
