@@ -353,6 +353,29 @@ TEST_CASE("a fork of thick branches is whole although the photo has only thin on
   CHECK(bright < 0.0005 * core);
 }
 
+TEST_CASE("a bare bank gets no mouths from a photo whose banks are full of them") {
+  Skeleton river(Size{640, 300}), plain(Size{500, 300});
+  add_line(river, {0, 150}, {639, 150}, 20.0);
+  const int count = river.count();
+  for (int i = 5; i + 5 < count; i += 10) {
+    const Vec2 from = river[i].xy();
+    add_line(river, from, from + Vec2(20, i % 20 == 5 ? 140 : -140), 3.0, i);
+  }
+  add_line(plain, {0, 150}, {499, 150}, 20.0);
+  const Dressed d = dress(drawn_exemplar(river, 15), plain);
+  int mouths = 0, whole = 0;
+  for (int y = 0; y < 300; ++y) {
+    for (int x = 0; x < 500; ++x) {
+      const bool dark = d.result.color(x, y).g < 0.33f;
+      mouths += dark && d.plan.field.signed_distance(x, y) > 3.0f;
+      whole += dark && d.plan.field.signed_distance(x, y) < -1.0f;
+    }
+  }
+  CHECK(mouths < 40);
+  CHECK(whole > 0.99 * 37 * 500);
+  CHECK(d.result.uncovered == 0);
+}
+
 TEST_CASE("blending fragment after fragment drifts unless free rims are held") {
   // Paper 002, figure 5: a photo whose brightness rises from left to right; each fragment takes the last one's colours.
   Exemplar exemplar = drawn_exemplar(wavy_skeleton({420, 160}, 3.0), 12);

@@ -130,7 +130,7 @@ PasteResult paste_fragments(const ColorImage& photo, const FragmentLibrary& libr
     for (int x = 0; x < background.width(); ++x) {
       const int label = result.owner(x, y);
       if (label == kNone) {
-        result.uncovered += cost.in_core(x, y) ? 1 : 0;
+        result.uncovered += plan.field.signed_distance(x, y) < 0.0f ? 1 : 0;
         continue;
       }
       result.color(x, y) = *cost.color(label, x, y);

@@ -9,6 +9,8 @@ namespace {
 
 // Values found on real photos (PICTURES 12.1-5), in thousandths.
 constexpr int kUncovered = 200'000;     // background in the core of a branch
+constexpr int kUncoveredBank = 4000;    // right beside it: better than the mouth of a branch that is not there
+constexpr float kEdge = 2.0f;           // px, by which annotations err
 constexpr double kDisagreement = 6000;  // per 2 px of branch against no branch, at most twice
 constexpr double kShadow = 3000;        // an unannotated branch where there should be none
 constexpr double kOffCentre = 50;       // prefers the fragment whose centre is nearer
@@ -80,7 +82,7 @@ int PasteCost::shows_branch(int label, int x, int y) const {
 
 int PasteCost::data(int label, int x, int y) const {
   if (label == kNone) {
-    if (in_core(x, y)) return kUncovered;
+    if (in_core(x, y)) return plan_.field.signed_distance(x, y) > kEdge ? kUncoveredBank : kUncovered;
     return static_cast<int>(kForeignGround * std::max(0.0, 1.0 - plan_.field.signed_distance(x, y) / std::max(1.0, options_.apron)));
   }
   const Placement& placement = plan_.placements[label];
