@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "ramify/image/color.h"
@@ -84,6 +85,26 @@ TEST_CASE("the outline of a tapering stroke has the area of the closed form") {
     const Shape shape = stroke_shape(stroke, Rgb{}, 0.05);
     CHECK(covered_area(shape, {200, 120}) == Approx(wanted).epsilon(0.01));
     CHECK(shape.loops.front().size() <= 16);  // few nodes
+  }
+}
+
+TEST_CASE("a branch keeps its width up to the last side branch that is nearly as wide") {
+  for (const auto& [side_radius, keeps] : {std::pair{4.0, true}, {0.8, false}}) {
+    Skeleton s({300, 200});
+    for (int i = 0; i <= 40; ++i) s.append({Vec3(20 + 5 * i, 100, 0), 5.0, i - 1});
+    int parent = 38;
+    for (int i = 1; i <= 12; ++i) parent = s.append({Vec3(210 + 3 * i, 100 - 5 * i, 0), side_radius, parent, 1});
+    StrokeOptions options;
+    options.smoothing = 0.0;
+    options.taper = 1.0;
+    options.flow = 0.0;
+    const std::vector<Stroke> strokes = make_strokes(s, options);
+    const Stroke& limb = strokes[0];
+    const auto at =
+        std::find_if(limb.points.begin(), limb.points.end(), [](const Vec2& point) { return point.x() >= 205.0; }) -
+        limb.points.begin();
+    CHECK((limb.radii[static_cast<std::size_t>(at)] == Approx(5.0)) == keeps);
+    CHECK(strokes[0].radii.back() < 1.0);  // beyond, it ends in a point
   }
 }
 

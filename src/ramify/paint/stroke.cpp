@@ -104,12 +104,28 @@ void widen_into_parent(Stroke& child, const Stroke& parent, double flow) {
   }
 }
 
-void taper_tip(Stroke& stroke, double taper) {
+// The last vertex of every branch that bears a side branch nearly as wide as itself: up to there it must not get thin.
+std::vector<int> bearing_vertices(const std::vector<BranchCurve>& curves) {
+  constexpr double kNearly = 0.6;
+  std::vector<int> last(curves.size(), 0);
+  for (const BranchCurve& side : curves) {
+    if (side.parent == kNone || side.count() < 2) continue;
+    const BranchCurve& parent = curves[static_cast<std::size_t>(side.parent)];
+    if (side.radii[1] < kNearly * parent.radii[static_cast<std::size_t>(side.parent_vertex)]) continue;
+    int& vertex = last[static_cast<std::size_t>(side.parent)];
+    vertex = std::max(vertex, side.parent_vertex);
+  }
+  return last;
+}
+
+// from: the first vertex that may get thinner.
+void taper_tip(Stroke& stroke, double taper, int from) {
   if (!stroke.tip || taper <= 0.0) return;
   const std::vector<double> arcs = arc_lengths(stroke.points);
   const double length = arcs.back() - arcs[static_cast<std::size_t>(stroke.rim)];
   const double widest = stroke.radii[static_cast<std::size_t>(stroke.rim)];
-  const double reach = taper * std::min(0.8 * length, 30.0 * widest);
+  const double reach =
+      taper * std::min({0.8 * length, 30.0 * widest, arcs.back() - arcs[static_cast<std::size_t>(from)]});
   if (reach <= 0.0) return;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const double t = std::clamp((arcs.back() - arcs[i]) / reach, 0.0, 1.0);
@@ -123,6 +139,7 @@ void taper_tip(Stroke& stroke, double taper) {
 std::vector<Stroke> make_strokes(const Skeleton& skeleton, const StrokeOptions& options) {
   const BranchTree tree = branch_tree(skeleton);
   const std::vector<BranchCurve> curves = branch_curves(skeleton, {options.smoothing, 0.0});
+  const std::vector<int> bearing = bearing_vertices(curves);
   std::vector<Stroke> strokes(curves.size());
   for (std::size_t b = 0; b < curves.size(); ++b) {
     const BranchCurve& curve = curves[b];
@@ -150,7 +167,9 @@ std::vector<Stroke> make_strokes(const Skeleton& skeleton, const StrokeOptions& 
       widen_into_parent(stroke, parent, options.flow);
       born = parent.births[static_cast<std::size_t>(stroke.parent_vertex)];
     }
-    taper_tip(stroke, options.taper);
+    const int last = static_cast<int>(stroke.points.size()) - 1,
+              moved = last + 1 - curve.count();  // its own start may have moved
+    taper_tip(stroke, options.taper, std::clamp(bearing[b] + moved, 0, last));
     stroke.births = arc_lengths(stroke.points);
     for (double& birth : stroke.births) birth += born;
   }
