@@ -239,6 +239,141 @@ TEST_CASE("grown statistics are the exemplar's") {
   CHECK(std::abs(angle_of(heading)) < 25.0 * kPi / 180.0);
 }
 
+namespace {
+
+// The most that a curve winds within `lag` edges, rad: from its points alone.
+double most_winding(const std::vector<Vec2>& points, int lag) {
+  std::vector<double> headings;  // unwrapped
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double angle = angle_of(points[i] - points[i - 1]);
+    headings.push_back(headings.empty() ? angle : headings.back() + wrap_angle(angle - headings.back()));
+  }
+  double most = 0.0;
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    for (std::size_t j = i + 1; j < headings.size() && j <= i + static_cast<std::size_t>(lag); ++j)
+      most = std::max(most, std::abs(headings[j] - headings[i]));
+  }
+  return most;
+}
+
+void append_line(Skeleton& skeleton, int parent, Vec2 from, const Vec2& to, double radius) {
+  const int steps = static_cast<int>((to - from).norm() / 2.0);
+  for (int i = parent == kNone ? 0 : 1; i <= steps; ++i) {
+    const Vec2 p =
+        from + (to - from) * (static_cast<double>(i) / steps) + Vec2(0.4 * std::sin(i * 1.3), 0.4 * std::cos(i * 1.7));
+    Node node;
+    node.position = Vec3(p.x(), p.y(), 0.0);
+    node.radius = radius;
+    node.parent = parent;
+    parent = skeleton.append(node);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("no branch winds more than the exemplar's do") {
+  test::WavyTree tree;
+  tree.wave = 1.1;
+  tree.wavelength = 90.0;
+  tree.radius = 2.0;
+  const Style style = style_of(tree, 31);
+  const BendingModel& bending = style.bending;
+  REQUIRE(style.hierarchy.lags.size() >= 2);
+  for (const int lag : style.hierarchy.lags) {
+    double allowed = 0.0;
+    for (int b = 0; b < bending.branch_count(); ++b) {
+      allowed = std::max(
+          allowed,
+          most_winding({bending.point.begin() + bending.first[b], bending.point.begin() + bending.first[b + 1]}, lag));
+    }
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+      const Skeleton grown = grow_from_style(style, canvas(600, 400), GrowOptions{}, Rng(seed), Monitor{});
+      for (const Branch& branch : branch_tree(grown).branches) {
+        std::vector<Vec2> points;
+        for (const int node : branch.nodes) points.push_back(grown[node].xy());
+        if (branch.parent != kNone) points.erase(points.begin());  // on the parent's axis
+        INFO("lag " << lag << " seed " << seed);
+        CHECK(most_winding(points, lag) <= allowed + 1e-6);
+      }
+    }
+  }
+}
+
+TEST_CASE("in a net branches run on until they meet another") {
+  Skeleton bricks(Size{500, 500});
+  for (int row = 0; row < 8; ++row) {
+    const double y = 30.0 + 60.0 * row;
+    const int first = bricks.count();
+    append_line(bricks, kNone, {0.0, y}, {499.0, y}, 2.0);
+    for (int brick = 0; brick < 15 && row < 7; ++brick) {
+      const double x = 24.0 + 30.0 * brick + 15.0 * (row % 2);
+      append_line(bricks, first + static_cast<int>(x / 2.0), {x, y}, {x, y + 56.0}, 2.0);
+    }
+  }
+  const Style style = learn_style(bricks, LearnStyleOptions{}, Monitor{});
+  int ends = 0, met = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Skeleton grown = grow_from_style(style, canvas(500, 500), GrowOptions{}, Rng(seed), Monitor{});
+    CHECK(test::crossing_pairs(grown) == 0);
+    const BranchTree tree = branch_tree(grown);
+    std::vector<int> owner(static_cast<std::size_t>(grown.count()), kNone);
+    for (std::size_t b = 0; b < tree.branches.size(); ++b) {
+      for (const int node : tree.branches[b].nodes) owner[static_cast<std::size_t>(node)] = static_cast<int>(b);
+    }
+    for (std::size_t b = 0; b < tree.branches.size(); ++b) {
+      const Vec2 tip = grown[tree.branches[b].nodes.back()].xy();
+      if (std::min({tip.x(), tip.y(), 499 - tip.x(), 499 - tip.y()}) < 4.0) continue;
+      double nearest = 1e9;
+      for (int i = 0; i < grown.count(); ++i) {
+        const int other = owner[static_cast<std::size_t>(i)];
+        if (other == static_cast<int>(b) || other == tree.branches[b].parent) continue;
+        nearest = std::min(nearest, (grown[i].xy() - tip).norm() - grown[i].radius);
+      }
+      ++ends;
+      met += nearest < 2.0 + style.step;
+    }
+  }
+  INFO(met << " of " << ends);
+  REQUIRE(ends > 50);
+  CHECK(met >= 0.8 * ends);  // short spurs may end in the open
+}
+
+TEST_CASE("a stroke reaches the ground where the exemplar's does") {
+  test::WavyTree tree;
+  tree.size = {400, 500};
+  tree.root = {200.0, 60.0};
+  tree.direction = 0.5 * kPi;
+  tree.length = 640.0;  // beyond the frame below
+  tree.wave = 0.9;
+  Skeleton whole = test::wavy_tree(tree, 7), exemplar(tree.size);
+  std::vector<int> kept(static_cast<std::size_t>(whole.count()), kNone);
+  for (int i = 0; i < whole.count(); ++i) {
+    Node node = whole[i];
+    const bool inside =
+        node.position.x() >= 0 && node.position.x() <= 399 && node.position.y() >= 0 && node.position.y() <= 499;
+    if (!inside || (node.parent != kNone && kept[static_cast<std::size_t>(node.parent)] == kNone)) continue;
+    if (node.parent != kNone) node.parent = kept[static_cast<std::size_t>(node.parent)];
+    kept[static_cast<std::size_t>(i)] = exemplar.append(node);
+  }
+  const Style style = learn_style(exemplar, LearnStyleOptions{}, Monitor{});
+  REQUIRE(style.hierarchy.branches.front().end == BranchEnd::Frame);
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (const int asked : {0, 1, 3}) {
+      GrowthTarget target = canvas(400, 1500);  // three times as far as the exemplar's own way
+      for (int i = 0; i < asked; ++i) target.roots.push_back({Vec2(100.0 + 100.0 * i, 60.0), {}, {}});
+      const Skeleton grown = grow_from_style(style, target, GrowOptions{}, Rng(seed), Monitor{});
+      bool reached = false;
+      for (const Branch& branch : branch_tree(grown).branches) {
+        if (branch.order > 0) continue;
+        const Vec2 end = grown[branch.nodes.back()].xy();
+        reached = reached || std::min({end.x(), end.y(), 399 - end.x(), 1499 - end.y()}) < 1.0;
+      }
+      INFO("seed " << seed << ", " << asked << " roots asked for");
+      CHECK(reached);
+    }
+  }
+}
+
 TEST_CASE("roots that start from one place stay roots there") {
   Skeleton disc(Size{500, 500});
   for (int spoke = 0; spoke < 5; ++spoke) {

@@ -164,7 +164,7 @@ TEST_CASE("a style of the first days reads without its landmarks and a newer one
   REQUIRE(old.size() < text.size());
   CHECK(style_text(parse_style(old, "old.json")) == text);  // the tree has no landmark
   std::string earlier = text;
-  for (const std::string key : {"clearance", "opening", "chord_spread", "lag_chord"}) {
+  for (const std::string key : {"clearance", "opening", "chord_spread", "lag_chord", "lag_winding"}) {
     const std::size_t at = earlier.find("\"" + key + "\":");
     REQUIRE(at != std::string::npos);
     earlier.replace(at + 1, key.size(), "forgotten_" + key);
@@ -187,6 +187,27 @@ TEST_CASE("learning is the same with any number of threads") {
   set_thread_count(0);
   CHECK(texts[0] == texts[1]);
   CHECK(texts[0] == texts[2]);
+}
+
+TEST_CASE("short branches have a direction as well, counted by their length") {
+  Skeleton skeleton(Size{600, 400});
+  const auto line = [&](int parent, const Vec2& from, const Vec2& step, int count) {
+    for (int i = parent == kNone ? 0 : 1; i <= count; ++i) {
+      const Vec2 p = from + i * step;
+      parent = skeleton.append({Vec3(p.x(), p.y(), 0.0), 1.0, parent});
+    }
+  };
+  line(kNone, {20, 200}, {2, 0}, 280);
+  for (int i = 0; i < 10; ++i) line(20 + 25 * i, {60.0 + 50.0 * i, 200}, {0, -2}, 15);  // 30 px upwards
+  line(270, {560, 200}, {0, 2}, 75);                                                    // 150 px downwards
+  LearnStyleOptions options;
+  options.feature_size = 48.0;
+  const Style style = learn_style(skeleton, options, Monitor{});
+  const Headings& headings = style.hierarchy.headings[1];
+  double up = 0.0, down = 0.0;
+  for (int b = 0; b < kHeadingBins; ++b)
+    (b < kHeadingBins / 2 ? up : down) += headings.share[static_cast<std::size_t>(b)];
+  CHECK(up / down == Approx(300.0 / 150.0).epsilon(0.2));
 }
 
 TEST_CASE("the linear machine separates what can be separated") {

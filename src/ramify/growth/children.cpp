@@ -17,7 +17,9 @@ constexpr double kDenseStart = 0.6;      // D beyond which a child's first stret
 constexpr double kTooShort = 0.35;       // of the intended length: taken back, tried elsewhere
 constexpr double kMostPlaceSpread = 0.18;  // of the parent's length, around the place in the template (PICTURES 12.2-4)
 constexpr double kOtherSide = 1.0;       // against the side the template's child leaves to: keeps the sides balanced
+constexpr double kLed = 5.0;             // of the share of a direction, where the exemplar's branches agree
 constexpr double kSwapped = 0.6;         // children swapped for a similar one
+constexpr int kNetStart = 3;             // vertices of a child's first stretch in a net
 constexpr int kSimilar = 5;
 constexpr double kAlike = 0.5;           // squared log ratios: nothing less alike is swapped in
 constexpr int kTries = 8;
@@ -36,7 +38,9 @@ double template_start(const GrowthState& state, int source) {
 Extension first_stretch(const GrowthState& state, const GrowingBranch& child) {
   const BendingModel& bending = state.style.bending;
   const int first = bending.first[child.source];
-  const int count = std::min({bending.extension, bending.length_of(child.source) - 1,
+  // Across a narrow mesh there is no room for a whole extension.
+  const int count = std::min({state.net() ? std::min(kNetStart, bending.extension) : bending.extension,
+                              bending.length_of(child.source) - 1,
                               std::max(1, static_cast<int>(std::lround(child.length / state.style.step)))});
   Extension out;
   double direction = child.start_direction;
@@ -90,17 +94,16 @@ GrowingBranch plan_branch(const GrowthState& state, const ChildPlan& plan, Rng& 
 
 // Where a child's chord points that turns from its parent's course as its template does; rad. The course is taken over
 // one extension to both sides: what the parent does in a single bend does not turn the whole child.
-double template_chord(const GrowthState& state, const GrowingBranch& child) {
+double template_chord(const GrowthState& state, const GrowingBranch& parent, int node, int child, bool mirrored) {
   const BendingModel& bending = state.style.bending;
-  const SourceBranch& source = state.style.hierarchy.branches[child.source];
-  const GrowingBranch& parent = state.branches[child.parent];
+  const SourceBranch& source = state.style.hierarchy.branches[child];
   const auto course = [&](const auto& points, int at, int first, int last) {
     return angle_of(points[std::min(last, at + bending.extension)] - points[std::max(first, at - bending.extension)]);
   };
   const int first = bending.first[source.parent], last = bending.first[source.parent + 1] - 1;
-  const Vec2 chord = bending.point[bending.first[child.source + 1] - 1] - bending.point[bending.first[child.source]];
+  const Vec2 chord = bending.point[bending.first[child + 1] - 1] - bending.point[bending.first[child]];
   const double turn = wrap_angle(angle_of(chord) - course(bending.point, first + source.parent_vertex, first, last));
-  return course(parent.points, child.parent_node, 0, parent.count() - 1) + (child.mirrored ? -turn : turn);
+  return wrap_angle(course(parent.points, node, 0, parent.count() - 1) + (mirrored ? -turn : turn));
 }
 
 double length_of_template(const GrowthState& state, int source) {
@@ -175,7 +178,6 @@ ChildPlan best_plan_at(const GrowthState& state, int number, int node) {
 std::vector<Place> rank_places(const GrowthState& state, int number, const WantedChild& wanted, Rng& rng) {
   const int source = wanted.source;
   const GrowingBranch& branch = state.branches[number];
-  const SourceBranch& child = state.style.hierarchy.branches[source];
   const double reach = std::min(0.6 * length_of_template(state, source), 4.0 * state.spacing + 40.0);
   const int last = branch.count() - 1;
   const Headings& headings =
@@ -191,10 +193,10 @@ std::vector<Place> rank_places(const GrowthState& state, int number, const Wante
     for (const bool mirrored : {false, true}) {
       const int side = state.side_of(source, mirrored);
       if ((mirrored && !state.style.mirror) || fork_blocked(state, branch, node, side)) continue;
-      const double direction = tangent_at(branch, node) + (mirrored ? -0.8 : 0.8) * child.start_angle;
+      // Where a child of this template would end up: branches that hardly bend do not come round to another heading.
+      const double direction = template_chord(state, branch, node, source, mirrored);
       const double led =
-          2.0 * headings.strength * headings.strength *
-          std::log(kHeadingBins * headings.share[static_cast<std::size_t>(heading_bin(direction))] + 0.3);
+          kLed * headings.strength * headings.strength * std::log(kHeadingBins * share_at(headings, direction) + 0.3);
       const double skip = branch.radii[node] + 0.6 * state.spacing;
       const double room = free_way(state, branch.points[node], direction, skip, reach);
       places.push_back({common + directed * led + 2.0 * junction_likeness(state, branch, node, source, mirrored) +
@@ -268,14 +270,22 @@ int place_child(GrowthState& state, const ChildPlan& plan, Rng& rng) {
   state.commit(number, stretch);
   state.branches[number].followed = plan.followed;
   const double reach = std::min(0.6 * child.length, 4.0 * state.spacing + 40.0);
-  state.branches[number].heading = plan.heading
-                                       ? *plan.heading
-                                       : draw_heading(state, child.points.front(), template_chord(state, child),
-                                                      child.order, reach, tree_root(state, plan.parent), rng);
+  state.branches[number].heading =
+      plan.heading
+          ? *plan.heading
+          : draw_heading(state, child.points.front(),
+                         template_chord(state, state.branches[plan.parent], plan.node, plan.source, plan.mirrored),
+                         child.order, reach, tree_root(state, plan.parent), rng);
   if (plan.followed == kNone) aim_at_frame(state, state.branches[number]);
   grow_branch(state, number, rng);
+  const bool loose = state.net() && !plan.spur && !run_on(state, number, rng);
+  if (plan.spur) taper_tip(state, number);
   const GrowingBranch& grown = state.branches[number];
   const double arc = grown.arc(state.style.step);
+  if (loose && arc < 2.0 * state.spacing) {
+    state.take_back(number);
+    return kNone;
+  }
   const bool stunted = grown.stop == GrowthStop::Stuck && arc < kTooShort * grown.length &&
                        grown.length > 3.0 * state.style.bending.extension * state.style.step;
   const bool ends_free = grown.stop == GrowthStop::Stuck || grown.stop == GrowthStop::None;
@@ -285,14 +295,40 @@ int place_child(GrowthState& state, const ChildPlan& plan, Rng& rng) {
   return kNone;
 }
 
+namespace {
+
+// How irregular the gaps between the children of a template to one side are: deviation over mean; 1 with too few to
+// tell.
+double unevenness(const GrowthState& state, int source) {
+  std::vector<double> gaps;
+  for (const int side : {1, -1}) {
+    std::vector<int> places;
+    for (int b = 0; b < static_cast<int>(state.style.hierarchy.branches.size()); ++b) {
+      const SourceBranch& other = state.style.hierarchy.branches[b];
+      if (other.parent == source && state.side_of(b, false) == side) places.push_back(other.parent_vertex);
+    }
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 1; i < places.size(); ++i) gaps.push_back(places[i] - places[i - 1]);
+  }
+  if (gaps.size() < 6) return 1.0;
+  double mean = 0.0, square = 0.0;
+  for (const double gap : gaps) mean += gap / static_cast<double>(gaps.size());
+  for (const double gap : gaps) square += (gap - mean) * (gap - mean) / static_cast<double>(gaps.size());
+  return std::sqrt(square) / std::max(1e-9, mean);
+}
+
+}  // namespace
+
 std::vector<WantedChild> list_children(const GrowthState& state, int number, double share, Rng& rng) {
   const GrowingBranch& branch = state.branches[number];
   const int own = state.style.bending.length_of(branch.source) - 1;
   const double ratio = (branch.count() - 1) / static_cast<double>(std::max(1, own));
   const auto siblings = std::count_if(state.style.hierarchy.branches.begin(), state.style.hierarchy.branches.end(),
                                       [&](const SourceBranch& other) { return other.parent == branch.source; });
-  // Many children stand in a row: each keeps its place in it, about a gap more or less.
-  const double spread = std::min(kMostPlaceSpread, 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, siblings)));
+  // Many children stand in a row: each keeps its place in it, about a gap more or less, and less where they stand
+  // evenly.
+  const double spread = std::clamp(1.5 * unevenness(state, branch.source), 0.3, 1.0) *
+                        std::min(kMostPlaceSpread, 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, siblings)));
   std::vector<WantedChild> list;
   for (int b = 0; b < static_cast<int>(state.style.hierarchy.branches.size()); ++b) {
     if (state.style.hierarchy.branches[b].parent != branch.source) continue;
@@ -346,6 +382,7 @@ int settle_child(GrowthState& state, int number, const WantedChild& wanted, Rng&
     plan.node = place.node;
     plan.source = wanted.source;
     plan.mirrored = place.mirrored;
+    plan.spur = wanted.spur;
     const int child = place_child(state, plan, rng);
     if (child != kNone) return child;
     if (static_cast<int>(tried.size()) >= tries) break;

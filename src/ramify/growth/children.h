@@ -16,6 +16,7 @@ struct ChildPlan {
   double length_factor = 1.0;
   double width_factor = 1.0;      // of the radius the template would have here
   int followed = kNone;           // a course to follow instead of a heading
+  bool spur = false;              // it may end in the open even in a net
 };
 
 // Starts and grows a child. Returns its number, or kNone when there is no room (then nothing has changed).
@@ -26,6 +27,7 @@ struct WantedChild {
   double place = 0.5;  // 0..1 along the parent, where the exemplar's branch has it
   double spread = 0.2; // of the parent's length, about the place
   int side = 1;        // the side it leaves to in the exemplar: +1 clockwise, -1
+  bool spur = false;   // it may end in the open even in a net
 };
 
 // The children a branch should have, as templates, longest first: its own template's, some swapped for similar ones.

@@ -11,10 +11,14 @@
 namespace ramify {
 namespace {
 
-constexpr int kLooks = 8;  // unfilled cells of which the farthest is taken
+constexpr int kLooks = 8,
+              kNetLooks = 32;  // unfilled cells of which the farthest is taken; in a net at last any, for short cracks
 constexpr int kMostTries = 4000;
 constexpr int kMostFailures = 40;
 constexpr int kMostBans = 2;
+constexpr double kNetFilled = 0.88;  // of the length: closing the net and its spurs take the rest
+constexpr double kNever = 1e300;
+constexpr double kRareHeading = 0.5;  // of what even shares would be: where the exemplar's branches hardly ever go
 constexpr double kMostForks = 1.1;  // times the exemplar's, after which length is no reason for more branches
 
 class Filler {
@@ -27,7 +31,9 @@ class Filler {
     for (int round = 0; round < kMostTries && failures < kMostFailures; ++round) {
       state_.monitor.check();
       if (state_.full() || state_.forks() > kMostForks * state_.wanted_forks()) return;
-      Rng rng = state_.rng.child("grow.fill", static_cast<std::uint64_t>(round));
+      if (state_.net() && !state_.twigs_added && state_.left_for_twigs() <= 0.0) return;
+      if (state_.net() && state_.grown_length > kNetFilled * state_.wanted_length) return;
+      Rng rng = state_.rng.child(state_.twigs_added ? "grow.refill" : "grow.fill", static_cast<std::uint64_t>(round));
       const int cell = pick_cell(rng);
       if (cell == kNone) return;
       const bool sent = send_to(cell, rng);
@@ -49,7 +55,8 @@ class Filler {
     if (open.empty()) return kNone;
     int best = kNone;
     double farthest = -1.0;
-    for (int look = 0; look < kLooks; ++look) {
+    const int looks = !state_.net() ? kLooks : state_.twigs_added ? 1 : kNetLooks;
+    for (int look = 0; look < looks; ++look) {
       const int cell = open[static_cast<std::size_t>(rng.discrete(weights))];
       const double reach = 4.0 * state_.spacing;
       const double distance =
@@ -67,12 +74,14 @@ class Filler {
   Errand nearest_start(const Vec2& goal) const {
     const auto cost = [&](const GrowingBranch& branch, int node, const Vec2& way, double distance) {
       const double back = std::max(0.0, 0.3 - direction_of(tangent_at(branch, node)).dot(way) / (distance + 1e-9));
+      if (state_.net()) return distance * (1.0 + back);
       const Headings& headings = state_.style.hierarchy.headings[std::min(branch.order + 1, kHeadingOrders - 1)];
       const double most = *std::max_element(headings.share.begin(), headings.share.end());
-      const double share = headings.share[static_cast<std::size_t>(heading_bin(angle_of(way)))];
+      const double share = share_at(headings, angle_of(way));
+      if (share < kRareHeading * headings.strength / kHeadingBins) return kNever;
       return distance * (1.0 + back) * (headings.strength >= 0.15 ? 1.0 + 2.0 * (1.0 - share / most) : 1.0);
     };
-    return cheapest_start(state_, goal, most_order_, 1e300, cost, [](const Vec2&) { return true; });
+    return cheapest_start(state_, goal, most_order_, kNever, cost, [](const Vec2&) { return true; });
   }
 
   bool send_to(int cell, Rng& rng) {

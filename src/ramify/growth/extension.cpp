@@ -8,6 +8,7 @@
 #include "ramify/growth/candidates.h"
 #include "ramify/growth/joining.h"
 #include "ramify/growth/raster_density.h"
+#include "ramify/growth/winding.h"
 
 namespace ramify {
 namespace {
@@ -17,11 +18,8 @@ constexpr double kEpsilon = 1e-3;      // of the paper's Q / (D + epsilon)
 constexpr double kValleyFloor = 0.3;   // of G: bends within the valley are all alike, else branches hug its middle
 constexpr double kPullAlong = 4.0;     // towards the place ahead on a course
 constexpr double kLookAhead = 3.0;     // extensions to that place: a nearer one would straighten the bends
+constexpr double kRunOn = 4.0;         // spacings (half a mesh of a net each) that an end may go on to what it joins
 constexpr double kDensityFloor = 0.1;  // the same for mean densities (12.2-8: not separable from the maximum)
-
-bool wants_join(const GrowthState& state, const GrowingBranch& branch) {
-  return state.style.hierarchy.branches[branch.source].end == BranchEnd::Join && !state.options.paper_exact;
-}
 
 bool related(const std::vector<GrowingBranch>& branches, int number, int other) {
   return other == number || other == branches[number].parent || branches[other].parent == number;
@@ -40,7 +38,7 @@ class Stepper {
     const bool late = branch.arc(state_.style.step) > 0.6 * branch.length;
     StepAim aim;
     aim.guided = guided_;
-    if (wants_join(state_, branch)) {
+    if (branch.joins) {
       if (late) aim.toward = place_to_join();
       aim.pull = 3.0;
       remaining = std::max(remaining, m * state_.style.step);
@@ -84,9 +82,12 @@ class Stepper {
   // Tests and scores the candidates; draws among the c best by their scores.
   bool take_one(const std::vector<Candidate>& candidates, int count) {
     std::vector<Scored> fits;
+    const bool bounded = !guided_ && !state_.options.paper_exact;  // the user's course may turn as it likes
+    const WindingBound winding(state_.style.hierarchy, self());
     for (const Candidate& candidate : candidates) {
       Scored scored{candidate.score, extend_by(state_, number_, candidate, count)};
-      if (scored.extension.points.empty() || !make_room(scored.extension)) continue;
+      if (scored.extension.points.empty() || (bounded && winding.exceeded_by(scored.extension))) continue;
+      if (!make_room(scored.extension)) continue;
       scored.score += surroundings(scored.extension);
       fits.push_back(std::move(scored));
     }
@@ -103,7 +104,7 @@ class Stepper {
   bool make_room(Extension& extension) const {
     if (state_.options.raster_density) return !crosses_density(state_, number_, extension);
     const GrowingBranch& branch = self();
-    const bool joining = wants_join(state_, branch) && branch.arc(state_.style.step) >= 0.3 * branch.length;
+    const bool joining = branch.joins && branch.arc(state_.style.step) >= 0.3 * branch.length;
     const Hit hit = state_.occupancy.meet(state_.branches, number_, extension, joining);
     if (!hit.blocked) return true;
     if (hit.capsule == kNone || !joining) return false;
@@ -122,7 +123,7 @@ class Stepper {
     const int beyond = branch.count() + static_cast<int>(extension.points.size());
     if (state_.options.raster_density)
       return -std::log(raster_maximum(state_, number_, from, along, 6.0 * reach) + kEpsilon);
-    const bool joining = wants_join(state_, branch) && branch.arc(state_.style.step) > 0.5 * branch.length;
+    const bool joining = branch.joins && branch.arc(state_.style.step) > 0.5 * branch.length;
     double density = 0.0, free = 0.0, wanted = 0.0;
     int densities = 0, places = 0;
     const auto look = [&](const Vec2& point, int node, bool dense) {
@@ -158,7 +159,7 @@ class Stepper {
     const int tip = branch.count() - 1;
     const Vec2 from = branch.points.back();
     const Vec2 along = (from - branch.points[std::max(0, tip - state_.style.bending.extension)]).stableNormalized();
-    double best = std::max(3.0 * state_.spacing, 0.25 * branch.length);
+    double best = std::max(kRunOn * state_.spacing, 0.25 * branch.length);
     std::optional<Vec2> place;
     const Vec2 reach = Vec2::Constant(best);
     const CapsuleIndex& index = state_.occupancy.index();
@@ -186,8 +187,8 @@ class Stepper {
 
 // A branch whose template ends by leaving the frame goes on past its length if the frame is near; one that joins too.
 double longest(const GrowthState& state, const GrowingBranch& branch) {
-  const BranchEnd end = state.style.hierarchy.branches[branch.source].end;
-  return branch.length * (end == BranchEnd::Tip || state.options.paper_exact ? 1.0 : 1.5);
+  const bool leaves = state.style.hierarchy.branches[branch.source].end == BranchEnd::Frame;
+  return branch.length * ((leaves || branch.joins) && !state.options.paper_exact ? 1.5 : 1.0);
 }
 
 // Beyond what the paint asks for a branch does not go on.
@@ -254,7 +255,28 @@ void grow_branch(GrowthState& state, int number, Rng& rng) {
     }
     state.step_back(number, m);
   }
-  taper_tip(state, number);
+  if (!state.net()) taper_tip(state, number);
+}
+
+bool run_on(GrowthState& state, int number, Rng& rng) {
+  const GrowingBranch before = state.branches[number];
+  if (before.stop == GrowthStop::Frame || before.stop == GrowthStop::Join || before.followed != kNone) return true;
+  const double most = before.arc(state.style.step) + kRunOn * state.spacing;
+  GrowingBranch& branch = state.branches[number];
+  branch.stop = GrowthStop::None;
+  branch.joins = true;
+  branch.length = before.arc(state.style.step);
+  Stepper stepper(state, number, rng);
+  while (branch.stop == GrowthStop::None && branch.arc(state.style.step) < most) {
+    state.monitor.check();
+    if (!stepper.step()) break;
+  }
+  if (branch.stop != GrowthStop::None) return true;
+  state.step_back(number, branch.count() - before.count());
+  branch.stop = before.stop;
+  branch.joins = before.joins;
+  branch.length = before.length;
+  return false;
 }
 
 }  // namespace ramify

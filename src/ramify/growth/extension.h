@@ -11,6 +11,10 @@ namespace ramify {
 // no way on; a stuck branch has been stepped back up to three times.
 void grow_branch(GrowthState& state, int number, Rng& rng);
 
+// In a net: goes on from a free end until it meets another branch or leaves; false, and nothing has changed, where none
+// comes within two meshes. `number` need not be the branch grown last.
+bool run_on(GrowthState& state, int number, Rng& rng);
+
 // Fades the tip of a branch that ends inside the picture as the exemplar's tips do.
 void taper_tip(GrowthState& state, int number);
 

@@ -7,6 +7,7 @@
 
 #include "ramify/growth/children.h"
 #include "ramify/growth/density_fill.h"
+#include "ramify/growth/extension.h"
 #include "ramify/growth/painted_fill.h"
 #include "ramify/growth/roots.h"
 #include "ramify/growth/thickness.h"
@@ -14,8 +15,10 @@
 namespace ramify {
 namespace {
 
-constexpr double kTemplateShare =
-    1.0;  // of the template's small children; what found no room is filled in where there is some
+// Of the template's small children, and of the wanted length that templates may take. A net is even: most of its small
+// branches go where its widest meshes are.
+constexpr double kTemplateShare = 1.0, kNetShare = 0.3, kNetLength = 0.35;
+constexpr double kNetForks = 1.0;  // of the exemplar's: what is missing after the net is closed are spurs
 
 // A child that is to be placed. Longest first over the whole tree, so that the large structure stands before the small
 // fills it; ties by age.
@@ -29,40 +32,23 @@ struct Job {
   }
 };
 
-// The exemplar's children from the shortest, the shorter half.
-std::vector<int> twigs_of(const Style& style) {
-  std::vector<int> twigs;
-  for (int b = 0; b < style.bending.branch_count(); ++b) {
-    if (style.hierarchy.branches[b].parent != kNone) twigs.push_back(b);
-  }
-  std::stable_sort(twigs.begin(), twigs.end(),
-                   [&](int a, int b) { return style.bending.length_of(a) < style.bending.length_of(b); });
-  twigs.resize((twigs.size() + 1) / 2);
-  return twigs;
-}
-
 void grow_children(GrowthState& state, const std::vector<int>& roots, int most_order) {
   std::priority_queue<Job> open;
   int age = 0;
   const auto plan_children = [&](int branch) {
     if (state.branches[branch].order >= most_order) return;
     Rng rng = state.rng.child("grow.children", static_cast<std::uint64_t>(branch));
-    for (const WantedChild& child : list_children(state, branch, kTemplateShare, rng)) {
+    for (const WantedChild& child : list_children(state, branch, state.net() ? kNetShare : kTemplateShare, rng)) {
       open.push({state.style.bending.length_of(child.source), age++, branch, child});
     }
   };
   for (const int root : roots) plan_children(root);
-  const std::vector<int> twigs = twigs_of(state.style);
-  const double twig =
-      twigs.empty() ? 0.0 : (state.style.bending.length_of(twigs[twigs.size() / 2]) - 1) * state.style.step;
-  const double rate = state.wanted_forks() / std::max(1.0, state.grown_length);
-  while (!open.empty() && state.grown_length < 1.02 * state.wanted_length) {
+  const double most = (state.net() ? kNetLength : 1.02) * state.wanted_length;
+  while (!open.empty() && state.grown_length < most) {
     const Job job = open.top();
     open.pop();
     // The last long ones must leave length for the short ones that are still missing.
-    const double missing = rate * state.wanted_length - state.forks() - 1;
-    const double length = (job.vertices - 1) * state.style.step;
-    if (state.grown_length + length > 1.05 * state.wanted_length - twig * std::max(0.0, missing)) continue;
+    if ((job.vertices - 1) * state.style.step > state.left_for_twigs()) continue;
     Rng rng = state.rng.child("grow.child", static_cast<std::uint64_t>(job.age));
     const int child = settle_child(state, job.parent, job.child, rng);
     if (child != kNone) plan_children(child);
@@ -71,14 +57,18 @@ void grow_children(GrowthState& state, const std::vector<int>& roots, int most_o
 }
 
 // What was stunted or found no place leaves forks missing. The exemplar's shortest children find room for themselves.
-void add_twigs(GrowthState& state, int most_order) {
-  constexpr double kMostLength = 1.1;  // of the wanted
-  const std::vector<int> twigs = twigs_of(state.style);
+// Spurs, of the shorter half of them, may end in the open even in a net.
+void add_twigs(GrowthState& state, int most_order, bool spurs) {
+  const double most_length = spurs ? 1.25 : 1.1;  // of the wanted
+  std::vector<int> twigs = state.twigs();
+  if (spurs) twigs.resize((twigs.size() + 1) / 2);
   if (twigs.empty()) return;
-  const int missing = static_cast<int>(state.wanted_forks()) - state.forks();
-  Rng rng = state.rng.child("grow.twigs");
-  for (int i = 0, left = missing; i < 4 * missing && left > 0 && state.grown_length < kMostLength * state.wanted_length;
-       ++i) {
+  const double wanted = (spurs ? kNetForks : 1.0) * state.wanted_forks();
+  const int missing = (wanted > 0.5 && wanted < 1.0 ? 1 : static_cast<int>(wanted)) - state.forks();
+  Rng rng = state.rng.child(spurs ? "grow.spurs" : "grow.twigs");
+  const int tries = state.net() ? 16 : 4;  // a net is full of places without room
+  for (int i = 0, left = missing;
+       i < tries * missing && left > 0 && state.grown_length < most_length * state.wanted_length; ++i) {
     state.monitor.check();
     // Longer branches carry more.
     std::vector<double> weights;
@@ -86,8 +76,16 @@ void add_twigs(GrowthState& state, int most_order) {
       weights.push_back(branch.order < most_order ? branch.count() : 0.0);
     const int parent = rng.discrete(weights);
     const int source = twigs[static_cast<std::size_t>(rng.below(static_cast<int>(twigs.size())))];
-    const WantedChild twig{source, rng.uniform(), 0.2, rng.uniform() < 0.5 ? 1 : -1};
+    const WantedChild twig{source, rng.uniform(), 0.2, rng.uniform() < 0.5 ? 1 : -1, spurs};
     if (settle_child(state, parent, twig, rng) != kNone) --left;
+  }
+}
+
+// Ends that met nothing while little had grown may meet something now; those that still do not fade.
+void close_net(GrowthState& state) {
+  for (int b = 0; b < static_cast<int>(state.branches.size()); ++b) {
+    Rng rng = state.rng.child("grow.close", static_cast<std::uint64_t>(b));
+    if (!run_on(state, b, rng)) taper_tip(state, b);
   }
 }
 
@@ -159,7 +157,13 @@ Skeleton grow_from_style(const Style& style, const GrowthTarget& target, const G
   } else {
     grow_children(state, roots, most_order);
     if (most_order > 0) fill_wanted(state, most_order);
-    if (most_order > 0 && !state.ground.painted()) add_twigs(state, most_order);
+    if (most_order > 0 && !state.ground.painted()) add_twigs(state, most_order, false);
+    if (state.net()) {
+      state.twigs_added = true;
+      if (most_order > 0) fill_wanted(state, most_order);
+      close_net(state);
+      if (most_order > 0) add_twigs(state, most_order, true);
+    }
   }
   const bool own_widths = std::none_of(target.roots.begin(), target.roots.end(),
                                        [](const GrowthRoot& root) { return root.radius.has_value(); });

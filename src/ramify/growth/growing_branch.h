@@ -39,6 +39,7 @@ struct GrowingBranch {
   std::optional<double> heading;  // rad, intended direction of its chord
   double course = 0.0;            // 0 = straight along the heading, 1 = bending at large as the template does
   int followed = kNone;           // the course it follows, or none
+  bool joins = false;             // it is to end on another branch, as its template does
   GrowthStop stop = GrowthStop::None;
   std::vector<Fork> forks;        // where children leave, in the order they were placed
   bool grown = true;              // false once taken back

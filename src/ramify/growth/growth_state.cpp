@@ -62,6 +62,11 @@ GrowthState::GrowthState(const Style& style_, const GrowthTarget& target_, const
   const double canvas_area = static_cast<double>(target.size.width) * target.size.height;
   wanted_length = options.length * style.hierarchy.total_length * canvas_area / exemplar_area;
   if (ground.painted()) crowding = std::min(1.0, style.hierarchy.total_length / exemplar_area * spacing);
+  double joining = 0.0;  // px of branches that end on others
+  for (int b = 0; b < style.bending.branch_count(); ++b) {
+    if (style.hierarchy.branches[b].end == BranchEnd::Join) joining += (style.bending.length_of(b) - 1) * style.step;
+  }
+  nets = joining > 0.5 * style.hierarchy.total_length && !ground.painted() && !options.paper_exact;
   const double width = options.guide_width > 0.0 ? options.guide_width : kValley * bend_amplitude(style.bending);
   for (const DrawnCourse& course : drawn) courses.emplace_back(course.path, width);
 }
@@ -74,6 +79,7 @@ double GrowthState::progress(const GrowingBranch& branch) const {
 
 int GrowthState::start(const GrowingBranch& branch) {
   branches.push_back(branch);
+  branches.back().joins = style.hierarchy.branches[branch.source].end == BranchEnd::Join && !options.paper_exact;
   const int number = static_cast<int>(branches.size()) - 1;
   if (branch.parent != kNone) {
     occupancy.add_link(branches[branch.parent].points[branch.parent_node], branch.points.front(), number);
@@ -92,6 +98,26 @@ double GrowthState::wanted_forks() const {
   const auto& learnt = style.hierarchy.branches;
   const auto children = std::count_if(learnt.begin(), learnt.end(), [](const SourceBranch& b) { return b.parent != kNone; });
   return static_cast<double>(children) * grown_length / style.hierarchy.total_length;
+}
+
+std::vector<int> GrowthState::twigs() const {
+  std::vector<int> twigs;
+  for (int b = 0; b < style.bending.branch_count(); ++b) {
+    if (style.hierarchy.branches[b].parent != kNone) twigs.push_back(b);
+  }
+  std::stable_sort(twigs.begin(), twigs.end(),
+                   [&](int a, int b) { return style.bending.length_of(a) < style.bending.length_of(b); });
+  twigs.resize((twigs.size() + 1) / 2);
+  return twigs;
+}
+
+double GrowthState::left_for_twigs() const {
+  const std::vector<int> short_ones = twigs();
+  const double twig =
+      short_ones.empty() ? 0.0 : (style.bending.length_of(short_ones[short_ones.size() / 2]) - 1) * style.step;
+  const double rate = wanted_forks() / std::max(1.0, grown_length);
+  const double missing = rate * wanted_length - forks() - 1;
+  return 1.05 * wanted_length - twig * std::max(0.0, missing) - grown_length;
 }
 
 int GrowthState::side_of(int source, bool mirrored) const {

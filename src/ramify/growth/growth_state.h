@@ -33,8 +33,13 @@ struct GrowthState {
   double unfilled(const Vec2& point) const { return ground.painted() ? demand.unfilled(point) : coverage.unfilled(point); }
   // Px a branch has come along the course it follows.
   double progress(const GrowingBranch& branch) const;
+  // Whether most of the exemplar's length lies in branches that end on others: its free ends are accidents of what was
+  // annotated, and every end runs on until it meets something.
+  bool net() const { return nets; }
   bool full() const { return grown_length >= wanted_length; }
   int forks() const;
+  std::vector<int> twigs() const;  // the exemplar's children from the shortest, the shorter half
+  double left_for_twigs() const;   // px that may still grow, less what the twigs need that are missing; <= 0 = none
   double wanted_forks() const;  // for what has grown, at the exemplar's rate
 
   const Style& style;
@@ -46,6 +51,8 @@ struct GrowthState {
   std::vector<DrawnCourse> drawn;
   std::vector<Course> courses;      // the drawn ones, then those laid out to reach painted places
   double spacing;                   // rho, px from a branch to halfway to its neighbour
+  bool nets = false;
+  bool twigs_added = false;         // what is left may be filled
   double crowding = 1.0;            // length per area in the exemplar over what paint asks for, at most 1
   Coverage coverage;
   Demand demand;                    // empty without a painted map

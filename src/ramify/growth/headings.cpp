@@ -39,9 +39,9 @@ double draw_heading(const GrowthState& state, const Vec2& from, double start, in
     const double direction = -kPi + 2.0 * kPi * i / kDirections;
     const double turn = wrap_angle(direction - start) / spread;
     double weight = std::exp(-0.5 * turn * turn);
-    weight *= std::pow(absolute.share[static_cast<std::size_t>(heading_bin(direction))] + kFloor, absolute_power);
+    weight *= std::pow(share_at(absolute, direction) + kFloor, absolute_power);
     if (ray_power > 0.0) {
-      weight *= std::pow(ray.share[static_cast<std::size_t>(heading_bin(wrap_angle(direction - angle_of(outward))))] + kFloor, ray_power);
+      weight *= std::pow(share_at(ray, direction - angle_of(outward)) + kFloor, ray_power);
     }
     weights.push_back(weight * std::pow(0.05 + free_way(state, from, direction, skip, reach), kFreePower));
   }

@@ -101,15 +101,59 @@ void copy_stem(GrowthState& state, int number) {
   if (!stem.points.empty() && !state.occupancy.meet(state.branches, number, stem).blocked) state.commit(number, stem);
 }
 
+// Trees on one side of the frame that stand nearer to each other than they would be moved: they are moved together.
+std::map<int, int> stands_of(const Style& style, const std::vector<int>& roots) {
+  const double near = kJitter * std::max(style.exemplar_size.width, style.exemplar_size.height);
+  std::map<int, int> stand;
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    const SourceBranch& root = style.hierarchy.branches[roots[i]];
+    if (stand.contains(root.tree)) continue;
+    stand[root.tree] = root.tree;
+    const Vec2 place = style.bending.point[style.bending.first[roots[i]]];
+    for (std::size_t j = 0; j < i && root.starts_on_frame; ++j) {
+      const SourceBranch& other = style.hierarchy.branches[roots[j]];
+      if (!other.starts_on_frame || (style.bending.point[style.bending.first[roots[j]]] - place).norm() > near)
+        continue;
+      stand[root.tree] = stand[other.tree];
+      break;
+    }
+  }
+  return stand;
+}
+
+// A root whose template leaves the picture, as a stroke to the ground or a river from frame to frame: when its own way
+// did not lead out, a straight course does.
+int place_leaving(GrowthState& state, RootPlan plan, Rng& rng) {
+  const Vec2 along = direction_of(plan.heading.value_or(plan.direction));
+  std::vector<Vec2> path{plan.position};
+  const double side = std::max(state.target.size.width, state.target.size.height);
+  for (double way = state.style.feature_size; way < 2.0 * side; way += state.style.feature_size) {
+    path.push_back(plan.position + along * way);
+    if (!state.ground.inside(path.back())) break;
+  }
+  if (path.size() < 3) return kNone;
+  path.push_back(path.back() + along * state.style.feature_size);
+  state.courses.emplace_back(path, 4.0 * bend_amplitude(state.style.bending));
+  plan.followed = static_cast<int>(state.courses.size()) - 1;
+  plan.length = 1.3 * state.courses.back().length();
+  return place_root(state, plan, rng);
+}
+
+bool leaves(const Style& style, int source) {
+  return style.hierarchy.branches[source].end == BranchEnd::Frame;
+}
+
 // All roots of the exemplar, each tree moved as one: strokes from one place stay together.
 std::vector<int> grow_own_roots(GrowthState& state) {
   std::vector<int> grown;
   std::map<int, Vec2> tree_jitter;
   std::set<int> settled;  // trees that have a root: what else starts there stays with it
   const Size size = state.target.size;
-  for (const int source : root_templates(state.style)) {
+  const std::vector<int> templates = root_templates(state.style);
+  const std::map<int, int> stands = stands_of(state.style, templates);
+  for (const int source : templates) {
     state.monitor.check();
-    const int tree = state.style.hierarchy.branches[source].tree;
+    const int tree = stands.at(state.style.hierarchy.branches[source].tree);
     Rng rng = state.rng.child("grow.root", static_cast<std::uint64_t>(source));
     for (int attempt = 0; attempt < kTries; ++attempt) {
       // Nearer and nearer to the exemplar's own place and direction: a stalk may leave it no other.
@@ -119,14 +163,17 @@ std::vector<int> grow_own_roots(GrowthState& state) {
       if (!settled.contains(tree)) tree_jitter[tree] = drawn;
       const RootPlan plan = plan_from_template(state, source, tree_jitter[tree], freedom, rng);
       if (!state.ground.inside(plan.position) || state.ground.blocked(plan.position)) continue;
-      const int number = place_root(state, plan, rng);
+      const bool last = attempt + 1 == kTries, must_leave = leaves(state.style, source) && !state.options.paper_exact;
+      int number = last && must_leave ? place_leaving(state, plan, rng) : place_root(state, plan, rng);
+      if (number == kNone && last && must_leave) number = place_root(state, plan, rng);
       if (number == kNone) continue;
       const GrowingBranch& branch = state.branches[number];
       // Stuck early, or out of the habitat or frame all but at once: another start may do better. So for a midrib that
       // leaves its leaf at the side.
       const double least = fits_old_ground(state, source) ? 0.9 : branch.stop == GrowthStop::Stuck ? 0.3 : 0.1;
-      const bool good = branch.arc(state.style.step) > least * branch.length;
-      if (good || attempt + 1 == kTries) {
+      const bool good =
+          branch.arc(state.style.step) > least * branch.length && (!must_leave || branch.stop == GrowthStop::Frame);
+      if (good || last) {
         grown.push_back(number);
         settled.insert(tree);
         break;
@@ -164,7 +211,14 @@ std::vector<int> grow_given_roots(GrowthState& state) {
     if (!root.direction) plan.heading = template_heading(state.style, plan.source) + kTurnJitter * rng.normal();
     plan.radius = root.radius;
     plan.length = template_length(state.style, plan.source) * std::exp(0.15 * rng.normal());
-    const int number = place_root(state, plan, rng);
+    int number = place_root(state, plan, rng);
+    // One of them leads out where the exemplar's do.
+    if (i == 0 && number != kNone && leaves(state.style, plan.source) &&
+        state.branches[number].stop != GrowthStop::Frame) {
+      state.take_back(number);
+      number = place_leaving(state, plan, rng);
+      if (number == kNone) number = place_root(state, plan, rng);
+    }
     if (number != kNone) grown.push_back(number);
   }
   return grown;

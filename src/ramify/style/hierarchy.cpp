@@ -14,10 +14,10 @@ struct HeadingSum {
   std::array<double, kHeadingBins> counts{};
   Vec2 sum = Vec2::Zero();
   double total = 0.0;
-  void add(double angle) {
-    counts[static_cast<std::size_t>(heading_bin(angle))] += 1.0;
-    sum += direction_of(angle);
-    total += 1.0;
+  void add(double angle, double weight) {
+    counts[static_cast<std::size_t>(heading_bin(angle))] += weight;
+    sum += weight * direction_of(angle);
+    total += weight;
   }
 };
 
@@ -35,7 +35,8 @@ Headings smoothed(const HeadingSum& sum) {
   return headings;
 }
 
-// Directions are taken over one extension: single steps are bends, not headings.
+// Directions are taken over one extension: single steps are bends, not headings. What is shorter has one direction;
+// every branch counts by its length.
 void measure_headings(Hierarchy& hierarchy, const BendingModel& bending) {
   std::array<HeadingSum, kHeadingOrders> absolute, ray;
   for (int b = 0; b < bending.branch_count(); ++b) {
@@ -44,11 +45,13 @@ void measure_headings(Hierarchy& hierarchy, const BendingModel& bending) {
     while (hierarchy.branches[root].parent != kNone) root = hierarchy.branches[root].parent;
     const Vec2 origin = bending.point[bending.first[root]];
     const int order = std::min(branch.order, kHeadingOrders - 1);
-    for (int i = bending.first[b] + bending.extension; i < bending.first[b + 1]; i += 2) {
-      const double angle = angle_of(bending.point[i] - bending.point[i - bending.extension]);
-      absolute[order].add(angle);
+    const int edges = bending.length_of(b) - 1, reach = std::min(bending.extension, edges);
+    const double weight = static_cast<double>(edges) / ((edges - reach) / 2 + 1);
+    for (int i = bending.first[b] + reach; i < bending.first[b + 1]; i += 2) {
+      const double angle = angle_of(bending.point[i] - bending.point[i - reach]);
+      absolute[order].add(angle, weight);
       const Vec2 outward = bending.point[i] - origin;
-      if (outward.norm() > 4.0 * bending.step) ray[order].add(wrap_angle(angle - angle_of(outward)));
+      if (outward.norm() > 4.0 * bending.step) ray[order].add(wrap_angle(angle - angle_of(outward)), weight);
     }
   }
   for (int order = 0; order < kHeadingOrders; ++order) {
@@ -79,6 +82,24 @@ void measure_lags(Hierarchy& hierarchy, const BendingModel& bending) {
     hierarchy.lag_turn.push_back(turns[static_cast<std::size_t>(0.95 * (turns.size() - 1))]);
     std::sort(chords.begin(), chords.end());
     hierarchy.lag_chord.push_back(chords[static_cast<std::size_t>(0.03 * (chords.size() - 1))]);
+  }
+}
+
+// Turns add up: a loop winds by 2 pi, however its two ends point.
+void measure_windings(Hierarchy& hierarchy, const BendingModel& bending) {
+  hierarchy.lag_winding.clear();
+  for (const int lag : hierarchy.lags) {
+    double most = 0.0;
+    for (int b = 0; b < bending.branch_count(); ++b) {
+      for (int from = bending.first[b]; from < bending.first[b + 1]; ++from) {
+        double wound = 0.0;
+        for (int i = from + 1; i < std::min(from + 1 + lag, bending.first[b + 1]); ++i) {
+          wound += bending.alpha[i];
+          most = std::max(most, std::abs(wound));
+        }
+      }
+    }
+    hierarchy.lag_winding.push_back(most);
   }
 }
 
@@ -191,9 +212,14 @@ int heading_bin(double angle) {
   return ((bin % kHeadingBins) + kHeadingBins) % kHeadingBins;
 }
 
+double share_at(const Headings& headings, double direction) {
+  return headings.share[static_cast<std::size_t>(heading_bin(direction))];
+}
+
 void measure_hierarchy(Hierarchy& hierarchy, const BendingModel& bending, Size size) {
   measure_headings(hierarchy, bending);
   measure_lags(hierarchy, bending);
+  measure_windings(hierarchy, bending);
   measure_tips(hierarchy, bending);
   measure_gaps(hierarchy);
   measure_ratio(hierarchy);

@@ -45,6 +45,9 @@ struct Headings {
   double strength = 0.0;                     // length of the mean direction, 0..1
 };
 
+// Share of the bin a direction falls into.
+double share_at(const Headings& headings, double direction);
+
 struct Hierarchy {
   std::vector<SourceBranch> branches;  // parents before children
   std::array<Headings, kHeadingOrders> headings;      // absolute direction by order, over one extension
@@ -52,6 +55,7 @@ struct Hierarchy {
   std::vector<int> lags;               // vertices
   std::vector<double> lag_turn;        // rad: 95 % of the turns between directions that many vertices apart
   std::vector<double> lag_chord;       // chord / arc over that many vertices that 97 % exceed
+  std::vector<double> lag_winding;  // rad: the most that any branch winds between two of at most that many edges apart
   std::vector<double> tip_profile;     // radius j vertices before a tip over that 2m vertices before it; 2m + 1 entries
   double most_ratio = 0.95;            // radius of a child over its parent's that four in five stay below, at least 0.95
   double least_radius = 0.5;           // px: 3 % of the vertices are thinner

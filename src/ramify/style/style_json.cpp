@@ -81,23 +81,24 @@ Json hierarchy_json(const Hierarchy& h) {
                         {"end", kEndNames[static_cast<std::size_t>(b.end)]}});
   }
   return Json::Object{{"branches", branches},
-          {"headings", headings_json(h.headings)},
-          {"ray_headings", headings_json(h.ray_headings)},
-          {"lags", list_json(h.lags)},
-          {"lag_turn", list_json(h.lag_turn)},
-          {"lag_chord", list_json(h.lag_chord)},
-          {"tip_profile", list_json(h.tip_profile)},
-          {"most_ratio", h.most_ratio},
-          {"least_radius", h.least_radius},
-          {"side_gap", h.side_gap},
-          {"highest_order", h.highest_order},
-          {"spacing", h.spacing},
-          {"clearance", h.clearance},
-          {"opening", h.opening},
-          {"chord_spread", list_json(h.chord_spread)},
-          {"total_length", h.total_length},
-          {"furcation_gap", h.furcation_gap},
-          {"habitat", list_json(h.habitat)}};
+                      {"headings", headings_json(h.headings)},
+                      {"ray_headings", headings_json(h.ray_headings)},
+                      {"lags", list_json(h.lags)},
+                      {"lag_turn", list_json(h.lag_turn)},
+                      {"lag_chord", list_json(h.lag_chord)},
+                      {"lag_winding", list_json(h.lag_winding)},
+                      {"tip_profile", list_json(h.tip_profile)},
+                      {"most_ratio", h.most_ratio},
+                      {"least_radius", h.least_radius},
+                      {"side_gap", h.side_gap},
+                      {"highest_order", h.highest_order},
+                      {"spacing", h.spacing},
+                      {"clearance", h.clearance},
+                      {"opening", h.opening},
+                      {"chord_spread", list_json(h.chord_spread)},
+                      {"total_length", h.total_length},
+                      {"furcation_gap", h.furcation_gap},
+                      {"habitat", list_json(h.habitat)}};
 }
 
 // A value of the document: every complaint names the file and the path.
@@ -252,6 +253,8 @@ Hierarchy read_hierarchy(const Reader& in, const BendingModel& bending) {
   h.lags = in["lags"].wholes(1, 1 << 20);
   h.lag_turn = in["lag_turn"].reals(h.lags.size());
   h.lag_chord = in.has("lag_chord") ? in["lag_chord"].reals(h.lags.size()) : std::vector<double>(h.lags.size(), 0.0);
+  h.lag_winding =
+      in.has("lag_winding") ? in["lag_winding"].reals(h.lags.size()) : std::vector<double>(h.lags.size(), kHuge);
   h.tip_profile = in["tip_profile"].reals(static_cast<std::size_t>(2 * bending.extension + 1));
   h.least_radius = in["least_radius"].real(1e-9, kHuge);
   h.side_gap = in["side_gap"].whole(1, 1 << 20);
