@@ -27,7 +27,7 @@ class Usage(CliTest):
         out = ("-o", "a.png")
         for seed in ["1e3", "-1", "0x10", "18446744073709551616", "seven", "1.0", ""]:
             self.fails(2, "--seed", "synth", self.exemplar, *out, "--seed", seed)
-        for count in ["0", "-1", "9223372036854775808", "1.5", "many"]:
+        for count in ["0", "-1", "9223372036854775808", "1.5", "1e3", "many"]:
             self.fails(2, "--count", "synth", self.exemplar, *out, "--count", count)
         for size in ["0x10", "-5x5", "10", "10x", "ax5", "10x10x10"]:
             self.fails(2, "size", "synth", self.exemplar, *out, "--size", size)

@@ -92,7 +92,9 @@ void set_text(OptionField& field, const std::string& text) {
     **flag_value = text == "true";
   } else if (auto* whole = std::get_if<int*>(&field.value)) {
     const double value = read();
-    if (value != std::floor(value) || std::abs(value) > 2147483647.0) fail("a whole number " + range_text(field));
+    // "1e3" is likelier a slip than a thousand pictures.
+    const bool plain = text.find_first_not_of("+-0123456789") == std::string::npos;
+    if (!plain || std::abs(value) > 2147483647.0) fail("a whole number " + range_text(field) + " in plain digits");
     **whole = static_cast<int>(value);
   } else if (auto* real = std::get_if<double*>(&field.value)) {
     **real = read();
