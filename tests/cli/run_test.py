@@ -92,12 +92,25 @@ class SameBytes(CliTest):
 
 class Signals(CliTest):
     def start(self, *extra, **kwargs):
-        return subprocess.Popen([BIN, "synth", "builtin:river", "--count", "50", "-o", self.path("a.png"), *extra], cwd=self.dir,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **kwargs)
+        job = subprocess.Popen([BIN, "synth", "builtin:river", "--count", "50", "-o", self.path("a.png"), *extra], cwd=self.dir,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **kwargs)
+        self.wait_until_it_listens(job)
+        return job
+
+    def wait_until_it_listens(self, job):
+        """Until the program catches SIGTERM: before, while its libraries are loaded, a signal ends any program."""
+        status = pathlib.Path(f"/proc/{job.pid}/status")
+        end = time.monotonic() + 20
+        while job.poll() is None and time.monotonic() < end:
+            caught = next(line for line in status.read_text().splitlines() if line.startswith("SigCgt:"))
+            if int(caught.split()[1], 16) >> (signal.SIGXCPU - 1) & 1:  # the last that is asked for
+                return
+            time.sleep(0.01)
+        self.fail("the program did not begin to catch signals")
 
     def test_stops_at_once_and_leaves_nothing_half_written(self):
         for sig, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 143)):
-            for delay in (0.15, 1.1):
+            for delay in (0.0, 0.1, 1.1):
                 job = self.start()
                 time.sleep(delay)
                 job.send_signal(sig)
