@@ -233,6 +233,16 @@ TEST_CASE("colours found beside branches only are theirs and reach as far as the
   CHECK(wrong == 0);
 }
 
+TEST_CASE("a blurred edge is no apron") {
+  Exemplar e = disc_exemplar(false, false);
+  const Mask none(e.photo.color.size(), 0);
+  const Mask near = branch_zone(e.skeleton, e.photo.color.size(), [](double r) { return r + 5.0; });
+  for (std::size_t i = 0; i < near.pixels().size(); ++i) {
+    if (near.pixels()[i]) e.photo.color.pixels()[i] = {0.2f, 0.3f, 0.8f};
+  }
+  CHECK(measure_apron(e, none).reach == 0.0);
+}
+
 TEST_CASE("lines on wide things of the branches' colours are embedded and lines on ground are not") {
   Mask lines(120, 80, 0), own(120, 80, 0);
   const Mask branches(120, 80, 0);

@@ -85,7 +85,8 @@ double reach_of(const Mask& own, const ScalarImage& distance, const Mask& outsid
   if (share(0) < kGoodPart) return 0.0;
   std::size_t k = 0;
   while (k + 1 < kEdges.size() && share(k) > kGone * share(0)) ++k;
-  return k > 1 ? kEdges[k] : 0.0;  // the first ring may be the branch's own blur
+  // What ends nearer is the branches' own blur, and what a dense annotation leaves out of a crown.
+  return kEdges[k] > kOff ? kEdges[k] : 0.0;
 }
 
 }  // namespace
