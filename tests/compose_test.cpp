@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ramify/compose/composite_mode.h"
 #include "ramify/compose/paper_warp.h"
 #include "ramify/compose/paste.h"
 #include "ramify/core/parallel.h"
@@ -94,6 +95,22 @@ Skeleton turned(const Skeleton& s, double angle, Size size) {
 }
 
 }  // namespace
+
+TEST_CASE("branches the ground shines through absorb its light, opaque ones are pasted") {
+  const Skeleton own = wavy_skeleton({240, 180}, 3.0);
+  const BranchField field = measure_branch_field(branch_curves(own), own.size);
+  for (const auto& [level, mode] : {std::pair{0.75f, CompositeMode::Absorb}, std::pair{0.3f, CompositeMode::Paste}}) {
+    Exemplar exemplar;
+    exemplar.skeleton = own;
+    exemplar.photo.color = ColorImage(own.size);
+    for (std::size_t i = 0; i < exemplar.photo.color.pixels().size(); ++i) {
+      const float inside = std::clamp(0.5f - field.signed_distance.pixels()[i], 0.0f, 1.0f);
+      exemplar.photo.color.pixels()[i] = (1.0f - inside + inside * level) * kGround;  // no grain
+    }
+    INFO("core " << level << " of the ground");
+    CHECK(choose_composite_mode(exemplar, make_fragment_library(exemplar, {}, {}, {})) == mode);
+  }
+}
 
 TEST_CASE("the branch field agrees with distances measured one by one") {
   const Size size{90, 70};

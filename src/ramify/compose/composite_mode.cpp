@@ -52,10 +52,14 @@ CompositeMode choose_composite_mode(const Exemplar& exemplar, const FragmentLibr
   // Measured on ten photos (docs/decisions/0021): lightning's core 0.90 and roughness 0.02, the next bright ones 0.91 but
   // 0.19 (snow on ridges) and 0.46 but 0.04 (roots); retina's roughness 0.14, the smoothest crack's 0.21.
   constexpr double kLuminous = 0.8, kDarkGround = 0.5, kEvenGround = 0.1, kSmoothGround = 0.17, kThin = 8.0;
+  constexpr double kOpaque = 0.5;  // of the ground: a vessel 0.73 to 0.85, a bare tree 0.31
   if (look.ground < kDarkGround && look.contrast + look.ground > kLuminous && look.roughness < kEvenGround) {
     return CompositeMode::Emit;
   }
-  if (look.contrast < 0.0 && look.radius < kThin && look.roughness < kSmoothGround) return CompositeMode::Absorb;
+  const bool shines_through = look.ground + look.contrast > kOpaque * look.ground;
+  if (look.contrast < 0.0 && shines_through && look.radius < kThin && look.roughness < kSmoothGround) {
+    return CompositeMode::Absorb;
+  }
   return CompositeMode::Paste;
 }
 
