@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Monotone priority queues for label-setting searches. Both hand out batches: all that lies in the lowest range of keys,
-// within which the order is of no consequence because every edge leads out of it. Private to the layer.
+// within which the order is of no consequence because every edge leads out of it. What a batch holds for a label that was
+// improved since is told by is_current. Private to the layer.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include "ramify/graph/node_lists.h"
 
 namespace ramify {
 
@@ -19,37 +22,38 @@ struct QueueItem {
 };
 
 // A ring of buckets 2^shift keys wide (Dial 1969; Dinitz 1978: a bucket no wider than the cheapest edge needs no order
-// within). No pushed key may exceed the current one by more than `widest`.
+// within). No pushed key may exceed the current one by more than `widest`. It keeps nodes alone, for their labels tell the
+// bucket they belong to: a node that is in one twice is handed out twice.
 class BucketQueue {
  public:
   using Key = std::uint32_t;
-  using Item = QueueItem<Key>;
   BucketQueue(Key cheapest, Key widest)
       : shift_(std::bit_width(cheapest) - 1), mask_(std::bit_ceil((widest >> shift_) + 2u) - 1), ring_(mask_ + 1) {}
   // How many buckets a queue would need.
   static std::uint32_t size_for(Key cheapest, Key widest) { return (widest >> (std::bit_width(cheapest) - 1)) + 2u; }
 
   void push(Key key, std::uint32_t node) {
-    ring_[(key >> shift_) & mask_].push_back({key, node});
+    ring_.push((key >> shift_) & mask_, node);
     ++count_;
   }
   bool empty() const { return count_ == 0; }
-  // The items of the lowest bucket, which is emptied; valid until the next call.
-  const std::vector<Item>& pop_batch() {
+  // The nodes of the lowest bucket, which is emptied; valid until the next call.
+  const std::vector<std::uint32_t>& pop_batch() {
     batch_.clear();
-    while (ring_[at_ & mask_].empty()) ++at_;
-    batch_.swap(ring_[at_ & mask_]);
+    while (ring_.empty(at_ & mask_)) ++at_;
+    ring_.move_to(at_ & mask_, batch_);
     count_ -= batch_.size();
     ++at_;
     return batch_;
   }
+  static std::uint32_t node_of(std::uint32_t item) { return item; }
+  // Whether the item, of the last batch, was pushed with a key like the one its node has now.
+  bool is_current(std::uint32_t, Key key) const { return (key >> shift_) + 1 == at_; }
   // Every key below this one is final once the batch has been worked off.
   std::uint64_t horizon() const { return static_cast<std::uint64_t>(at_) << shift_; }
   template <class F>
   void for_each_node(F&& f) const {
-    for (const auto& bucket : ring_) {
-      for (const Item& item : bucket) f(item.node);
-    }
+    ring_.for_each_node(f);
   }
 
  private:
@@ -57,8 +61,8 @@ class BucketQueue {
   std::uint32_t mask_;
   std::uint32_t at_ = 0;
   std::size_t count_ = 0;
-  std::vector<std::vector<Item>> ring_;
-  std::vector<Item> batch_;
+  NodeLists<15> ring_;
+  std::vector<std::uint32_t> batch_;
 };
 
 // Buckets by the highest octal digit in which a key differs from the last one handed out, and that digit's value (Ahuja,
@@ -83,6 +87,8 @@ class RadixQueue {
     count_ -= batch_.size();
     return batch_;
   }
+  static std::uint32_t node_of(const Item& item) { return item.node; }
+  static bool is_current(const Item& item, Key key) { return item.key == key; }
   std::uint64_t horizon() const { return (static_cast<std::uint64_t>(last_) + 1) << shift_; }
   template <class F>
   void for_each_node(F&& f) const {

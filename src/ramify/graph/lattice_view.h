@@ -54,8 +54,8 @@ class LatticeView {
   static constexpr Link kSourceLink = kSource, kForbiddenLink = kForbidden, kUnreachedLink = kUnreached;
 
   // `links` tell which nodes are forbidden, where corners may not be cut.
-  LatticeView(const Lattice& lattice, const Ticks& ticks, const Link* links)
-      : ticks_(ticks), links_(lattice.cut_corners ? nullptr : links), width_(lattice.width), height_(lattice.height),
+  LatticeView(const Lattice& lattice, const Ticks& ticks, const StepArray& links)
+      : ticks_(ticks), links_(lattice.cut_corners ? nullptr : &links), width_(lattice.width), height_(lattice.height),
         depth_(lattice.depth), last_(static_cast<std::uint32_t>(lattice.count()) - 1), row_share_(~0ull / static_cast<std::uint64_t>(lattice.width) + 1), from_share_(lattice.edge_cost == EdgeCost::Mean ? 1 : 0), lead_share_(from_share_) {
     const auto steps = lattice_steps(lattice.connectivity);
     for (int k = 0; k < kSteps; ++k) {
@@ -175,13 +175,13 @@ class LatticeView {
     const std::int32_t along[3] = {steps_[k].dx, steps_[k].dy * width_, steps_[k].dz * width_ * height_};
     for (int part = 1; part < 7; ++part) {
       const std::int32_t offset = (part & 1 ? along[0] : 0) + (part & 2 ? along[1] : 0) + (part & 4 ? along[2] : 0);
-      if (links_[node + offset] == kForbidden) return true;
+      if ((*links_)[node + offset] == kForbidden) return true;
     }
     return false;
   }
 
   Ticks ticks_;
-  const Link* links_;
+  const StepArray* links_;
   int width_, height_, depth_;
   std::uint32_t last_;       // node
   std::uint64_t row_share_;  // 2^64 / width: a node times this, shifted down, is its row, faster than by a division

@@ -3,83 +3,18 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <compare>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "ramify/graph/bucket_queue.h"
 #include "ramify/graph/labels.h"
+#include "ramify/graph/node_lists.h"
 
 namespace ramify {
-
-// Many lists of nodes in chunks of one pool, so that none keeps room it does not use.
-class NodeLists {
- public:
-  explicit NodeLists(std::size_t count) : lists_(count) {}
-
-  void push(std::size_t list, std::uint32_t node) {
-    List& to = lists_[list];
-    if (to.used == kRoom) to = {fresh_chunk(to.head), 0};
-    chunk(to.head).nodes[to.used++] = node;
-  }
-  bool empty(std::size_t list) const { return lists_[list].head == kNoChunk; }
-  // Appends the nodes of a list, which is emptied.
-  void move_to(std::size_t list, std::vector<std::uint32_t>& out) {
-    List& from = lists_[list];
-    for (std::uint32_t used = from.used; from.head != kNoChunk; used = kRoom) {
-      Chunk& c = chunk(from.head);
-      out.insert(out.end(), c.nodes.begin(), c.nodes.begin() + used);
-      const std::uint32_t next = c.next;
-      c.next = free_;
-      free_ = from.head;
-      from.head = next;
-    }
-    from.used = kRoom;
-  }
-  template <class F>
-  void for_each_node(F&& f) const {
-    for (const List& list : lists_) {
-      std::uint32_t used = list.used;
-      for (std::uint32_t at = list.head; at != kNoChunk; at = chunk(at).next, used = kRoom) {
-        for (std::uint32_t i = 0; i < used; ++i) f(chunk(at).nodes[i]);
-      }
-    }
-  }
-
- private:
-  static constexpr std::uint32_t kRoom = 63, kNoChunk = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::uint32_t kBlock = 1024;  // chunks
-  struct Chunk {
-    std::uint32_t next;
-    std::array<std::uint32_t, kRoom> nodes;
-  };
-  struct List {
-    std::uint32_t head = kNoChunk, used = kRoom;
-  };
-
-  Chunk& chunk(std::uint32_t index) { return blocks_[index / kBlock][index % kBlock]; }
-  const Chunk& chunk(std::uint32_t index) const { return blocks_[index / kBlock][index % kBlock]; }
-  std::uint32_t fresh_chunk(std::uint32_t next) {
-    std::uint32_t index = free_;
-    if (index == kNoChunk) {
-      index = made_++;
-      if (index % kBlock == 0) blocks_.push_back(std::make_unique_for_overwrite<Chunk[]>(kBlock));
-    } else {
-      free_ = chunk(index).next;
-    }
-    chunk(index).next = next;
-    return index;
-  }
-
-  std::vector<List> lists_;
-  std::vector<std::unique_ptr<Chunk[]>> blocks_;
-  std::uint32_t made_ = 0, free_ = kNoChunk;
-};
 
 // What has a higher peak than the current one waits in a list for its peak: nodes alone, for their labels say the rest.
 // When its turn comes, nodes whose labels have a lower peak by now are dropped and the others handed out in no order.
@@ -117,6 +52,9 @@ class PeakQueue {
       ++count_;
     }
   }
+  static std::uint32_t node_of(const Item& item) { return item.node; }
+  // Whether the item was pushed for the label that the node has now.
+  static bool is_current(const Item& item, Key key) { return item.key == key; }
   bool empty() const { return is_peak_done() && next_gathered_ == gathered_.size() && waiting_count_ == 0; }
   // May be empty when all that waited has lower peaks by now.
   const std::vector<Item>& pop_batch() {
@@ -286,7 +224,7 @@ class PeakQueue {
   std::vector<PeakItem> gathered_, later_;
   std::size_t next_gathered_ = 0, at_list_ = std::numeric_limits<std::size_t>::max();
   int peak_shift_;
-  NodeLists waiting_;
+  NodeLists<63> waiting_;
   std::size_t waiting_count_ = 0;  // in the lists and in later_
   std::vector<std::uint32_t> nodes_;
   std::vector<Item> batch_;

@@ -72,7 +72,7 @@ Plan blank_plan(const PlanOptions& options, std::size_t count) {
 
 // Forbidden nodes have the label 0, so that the search need not ask: no offer is below.
 void forbid(Plan& plan, int node) {
-  plan.step[node] = kForbidden;
+  plan.step.set(static_cast<std::size_t>(node), kForbidden);
   if (!plan.sum.empty()) plan.sum[node] = 0;
   if (!plan.pair.empty()) plan.pair[node] = {0, 0};
   if (!plan.power_sum.empty()) plan.power_sum[node] = 0.0;
@@ -152,7 +152,7 @@ Plan plan_paths(const Lattice& lattice, std::span<const int> sources, const Plan
     Plan plan = blank_plan(options, static_cast<std::size_t>(lattice.count()));
     plan.ticks_per_unit = ticks;
     plan.power_unit = scale.dearest;
-    assign_big(plan.step, static_cast<std::size_t>(lattice.count()), kUnreached);
+    plan.step = StepArray(static_cast<std::size_t>(lattice.count()), static_cast<int>(lattice_steps(lattice.connectivity).size()));
     forbid_nodes(plan, lattice);
     const SearchEnd end = search_on(lattice, plan, {sources, options.endpoints, options.max_cost, {}}, weights, monitor);
     plan.stopped_early = end == SearchEnd::Stopped;
@@ -181,8 +181,8 @@ Plan plan_paths(const PointGraph& graph, std::span<const int> sources, const Pla
 namespace {
 
 // The sources of a plan and those that are added.
-template <class Link>
-std::vector<int> all_sources(const std::vector<Link>& links, Link source, std::span<const int> added) {
+template <class Links, class Link>
+std::vector<int> all_sources(const Links& links, Link source, std::span<const int> added) {
   std::vector<int> out;
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (links[i] == source) out.push_back(static_cast<int>(i));

@@ -17,6 +17,7 @@
 #include "ramify/graph/lattice.h"
 #include "ramify/graph/metric.h"
 #include "ramify/graph/point_graph.h"
+#include "ramify/graph/step_array.h"
 
 namespace ramify {
 
@@ -35,7 +36,7 @@ struct SumAndPeak {
 };
 
 // What is known of every node. Read it through the functions below; the arrays are what they are to be small (lattices:
-// 5 bytes a node for Sum, 9 for Partial, Mix, Full and Power).
+// 4.5 bytes a node for Sum, 8.5 for Partial, Mix, Full and Power; half a byte more with 26 neighbours).
 struct Plan {
   MetricOptions metric;
   double ticks_per_unit = 1.0;
@@ -45,12 +46,9 @@ struct Plan {
   std::vector<std::uint32_t> sum;     // Sum: ticks along the path
   std::vector<SumAndPeak> pair;       // Partial, Mix, Full
   std::vector<double> power_sum;      // Power: sum of (cost / power_unit)^p
-  std::vector<std::uint8_t> step;     // lattices: the step that leads from the node to its parent, or one of those below
-  std::vector<std::int32_t> parent;   // point graphs: the parent, or one of those below taken negative
+  StepArray step;                     // lattices: the step from the node to its parent, kSource, kForbidden or kUnreached
+  std::vector<std::int32_t> parent;   // point graphs: the parent, or one of those three taken negative
 };
-inline constexpr std::uint8_t kSource = 253;     // the node is a source
-inline constexpr std::uint8_t kForbidden = 254;  // no path may use the node
-inline constexpr std::uint8_t kUnreached = 255;
 
 // Throws InputError when a source does not exist or is forbidden, or there is none; OptionError for options out of range.
 Plan plan_paths(const Lattice& lattice, std::span<const int> sources, const PlanOptions& options = {},

@@ -23,8 +23,8 @@ struct SearchTask {
 // Beyond this many buckets most are empty and the radix queue is faster.
 inline constexpr std::uint32_t kMostBuckets = 1u << 16;
 
-template <class View, class Labels, class Queue, class Start>
-SearchEnd run_from(const View& view, Labels labels, typename View::Link* links, Queue queue, const SearchTask& task,
+template <class View, class Labels, class Links, class Queue, class Start>
+SearchEnd run_from(const View& view, Labels labels, Links links, Queue queue, const SearchTask& task,
                    typename Queue::Key limit, const Start& start, const Monitor& monitor) {
   for (const int node : task.sources) {
     const auto label = start(node);
@@ -45,8 +45,8 @@ SearchEnd run_from(const View& view, Labels labels, typename View::Link* links, 
   return end;
 }
 
-template <class View>
-SearchEnd run_sum(const View& view, Plan& plan, typename View::Link* links, const SearchTask& task, const Monitor& monitor) {
+template <class View, class Links>
+SearchEnd run_sum(const View& view, Plan& plan, Links links, const SearchTask& task, const Monitor& monitor) {
   const SumLabels labels{plan.sum.data()};
   const auto start = [&](int node) { return view.start_ticks(node); };
   const std::uint32_t limit = tick_limit(task.max_cost * plan.ticks_per_unit);
@@ -56,8 +56,8 @@ SearchEnd run_sum(const View& view, Plan& plan, typename View::Link* links, cons
   return run_from(view, labels, links, RadixQueue<std::uint32_t>(std::bit_width(task.bounds.cheapest) - 1), task, limit, start, monitor);
 }
 
-template <class View>
-SearchEnd run_pairs(const View& view, Plan& plan, typename View::Link* links, const SearchTask& task, const Monitor& monitor) {
+template <class View, class Links>
+SearchEnd run_pairs(const View& view, Plan& plan, Links links, const SearchTask& task, const Monitor& monitor) {
   const PartialLabels labels{plan.pair.data()};
   const auto start = [&](int node) { return PartialLabels::Label{view.start_ticks(node), view.start_ticks(node)}; };
   const double ticks = task.max_cost * plan.ticks_per_unit;
@@ -77,8 +77,8 @@ SearchEnd run_pairs(const View& view, Plan& plan, typename View::Link* links, co
                   std::move(queue), task, limit, start, monitor);
 }
 
-template <class View>
-SearchEnd run_power(const View& view, Plan& plan, typename View::Link* links, const SearchTask& task, const Monitor& monitor) {
+template <class View, class Links>
+SearchEnd run_power(const View& view, Plan& plan, Links links, const SearchTask& task, const Monitor& monitor) {
   const double p = plan.metric.power;
   const PowerLabels labels{plan.power_sum.data(), p, 1.0 / (plan.ticks_per_unit * plan.power_unit)};
   const auto start = [&](int node) { return std::pow(view.start_ticks(node) * labels.unit_per_tick, p); };
@@ -88,8 +88,8 @@ SearchEnd run_power(const View& view, Plan& plan, typename View::Link* links, co
 }
 
 // Prim's algorithm: the tree grows by the cheapest edge out of it, ties to axial edges, then by a hash of the edge.
-template <class View>
-SearchEnd run_full(const View& view, Plan& plan, typename View::Link* links, const SearchTask& task, const Monitor& monitor) {
+template <class View, class Links>
+SearchEnd run_full(const View& view, Plan& plan, Links links, const SearchTask& task, const Monitor& monitor) {
   using Item = QueueItem<std::uint64_t>;
   const auto later = [](const Item& a, const Item& b) { return a.key != b.key ? a.key > b.key : a.node > b.node; };
   std::priority_queue<Item, std::vector<Item>, decltype(later)> queue(later);
@@ -138,8 +138,8 @@ SearchEnd run_full(const View& view, Plan& plan, typename View::Link* links, con
   return end;
 }
 
-template <class View>
-SearchEnd run_search(const View& view, Plan& plan, typename View::Link* links, const SearchTask& task, const Monitor& monitor) {
+template <class View, class Links>
+SearchEnd run_search(const View& view, Plan& plan, Links links, const SearchTask& task, const Monitor& monitor) {
   switch (plan.metric.metric) {
     case Metric::Sum: return run_sum(view, plan, links, task, monitor);
     case Metric::Power: return run_power(view, plan, links, task, monitor);

@@ -52,16 +52,16 @@ struct SecondView {
   void prefetch(const Labels&, std::uint32_t) const {}
 };
 
-template <class View>
-SearchEnd run_second(const View& view, const Plan& plan, const typename View::Link* links, std::uint32_t cheapest, TwoNearest& nearest,
+// `way` starts as a copy of the plan's links and becomes the last steps of second paths, for ties.
+template <class View, class Links>
+SearchEnd run_second(const View& view, const Plan& plan, Links way, std::uint32_t cheapest, TwoNearest& nearest,
                      const Monitor& monitor) {
   const std::size_t count = nearest.own.size();
   SecondLabels labels{nearest.sum.data(), nearest.other.data()};
   const std::uint32_t limit = tick_limit(plan.max_cost * plan.ticks_per_unit);
-  std::vector<typename View::Link> way(links, links + count);  // the second path's last step, for ties
   for (std::uint32_t node = 0; node < count; ++node) {
     if (nearest.own[node] == kNone) {
-      if (links[node] == View::kForbiddenLink) nearest.sum[node] = 0;  // nothing is offered to it
+      if (way[node] == View::kForbiddenLink) nearest.sum[node] = 0;  // nothing is offered to it
       continue;
     }
     const auto borders = [&](std::uint32_t to, auto&&) { return nearest.own[to] != kNone && nearest.own[to] != nearest.own[node]; };
@@ -77,7 +77,7 @@ SearchEnd run_second(const View& view, const Plan& plan, const typename View::Li
     if (nearest.other[node] != kNone) queue.push(labels.key(node) + view.lead(node), node);
   }
   StopAtEndpoints never{};
-  return search(SecondView<View>{view, nearest.own.data(), nearest.other.data()}, labels, way.data(), queue, never, limit, monitor);
+  return search(SecondView<View>{view, nearest.own.data(), nearest.other.data()}, labels, way, queue, never, limit, monitor);
 }
 
 }  // namespace ramify

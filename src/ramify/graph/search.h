@@ -47,7 +47,7 @@ struct StopAtEndpoints {
 
 enum class SearchEnd { Exhausted, Stopped, Overflow };
 
-// `links` holds one link a node, `limit` is the largest key a node may get, `ceiling` the largest a settled node may have
+// `links[node]` is a node's link, `limit` is the largest key a node may get, `ceiling` the largest a settled node may have
 // so that no sum overflows. Of neighbours that offer the same label the one settled first (lower key, then lower index)
 // becomes the parent, whatever the order in which the queue handed them out.
 //
@@ -55,8 +55,8 @@ enum class SearchEnd { Exhausted, Stopped, Overflow };
 // edges. Where an edge costs the mean of its nodes, all neighbours that reach a node pay the same share of its own, so the
 // first to be worked off is nearly always the best, and few labels are ever improved. Labels are final in that order too:
 // what u with key(u) + lead(u) >= key(v) + lead(v) offers to v is at least key(u) + lead(u) + lead(v) > key(v).
-template <class View, class Labels, class Queue, class Stop>
-SearchEnd search(const View& view, Labels& labels, typename View::Link* links, Queue& queue, Stop& stop,
+template <class View, class Labels, class Links, class Queue, class Stop>
+SearchEnd search(const View& view, Labels& labels, Links links, Queue& queue, Stop& stop,
                  typename Queue::Key limit, const Monitor& monitor) {
   using Key = typename Queue::Key;
   using Link = typename View::Link;
@@ -67,17 +67,17 @@ SearchEnd search(const View& view, Labels& labels, typename View::Link* links, Q
     if constexpr (requires { queue.preview([](std::uint32_t) {}); }) {
       queue.preview([&](std::uint32_t node) __attribute__((always_inline)) { view.prefetch(labels, node); });
     } else {
-      for (const auto& item : batch) view.prefetch(labels, item.node);
+      for (const auto& item : batch) view.prefetch(labels, Queue::node_of(item));
     }
     for (const auto& item : batch) {
-      const std::uint32_t node = item.node;
-      const Key key = labels.key(node);
-      if (key + Labels::lead(view, node) != item.key) continue;  // a better label came later
+      const std::uint32_t node = Queue::node_of(item);
+      const Key key = labels.key(node), leaving = key + Labels::lead(view, node);
+      if (!queue.is_current(item, leaving)) continue;  // a better label came later
       if (labels.overflows(node)) return SearchEnd::Overflow;
       stop.settled(node);
       const auto may_improve = [&](std::uint32_t to, auto&& edge) {
         if constexpr (View::kCostlyEdges || Labels::kCostly) {
-          if (labels.key(to) <= item.key) return false;  // every offer is above item.key
+          if (labels.key(to) <= leaving) return false;  // every offer is above it
         }
         return labels.key_of(labels.extended(node, edge())) <= labels.key(to);
       };

@@ -59,7 +59,8 @@ TwoNearest two_nearest(const Plan& plan, const PointGraph& graph, std::span<cons
   if (graph.cost.empty()) return out;
   const PointView view(graph, plan.ticks_per_unit);
   const float least = *std::min_element(graph.cost.begin(), graph.cost.end());
-  check_end(run_second(view, plan, plan.parent.data(), view.cost_ticks(least), out, monitor));
+  std::vector<std::int32_t> way = plan.parent;
+  check_end(run_second(view, plan, way.data(), view.cost_ticks(least), out, monitor));
   return out;
 }
 
