@@ -147,6 +147,15 @@ TEST_CASE("turning angles and tangents have the documented sign") {
   for (const Vec2& t : tangents(doubled)) CHECK(t.isApprox(Vec2(1, 0)));
 }
 
+TEST_CASE("the nearest point is the first of those at the least distance") {
+  const std::vector<Vec2> square{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}};
+  CHECK(nearest_point(square, Vec2(3, 1.5)) == 1);
+  CHECK(nearest_point(square, Vec2(-9, 5)) == 3);
+  CHECK(nearest_point(square, Vec2(0, 0)) == 0);
+  CHECK(nearest_point(square, Vec2(2, 2)) == 0);
+  CHECK(nearest_point(std::vector<Vec2>{{7, 7}}, Vec2(0, 0)) == 0);
+}
+
 TEST_CASE("simplification stays within its tolerance and drops what is straight") {
   Rng rng(9);
   const auto line = random_walk(rng, 500);

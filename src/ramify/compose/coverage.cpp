@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ramify/exemplar/shore.h"
+#include "ramify/geometry/polyline.h"
 
 namespace ramify {
 namespace {
@@ -71,21 +72,12 @@ Image<std::uint8_t> shown_branches(const FragmentLibrary& library, const Placeme
   return state;
 }
 
-// The vertex of `curve` nearest to p.
-int nearest_vertex(const BranchCurve& curve, const Vec2& p) {
-  int best = 0;
-  for (int i = 1; i < curve.count(); ++i) {
-    if ((curve.points[i] - p).squaredNorm() < (curve.points[best] - p).squaredNorm()) best = i;
-  }
-  return best;
-}
-
 // What lies within the parent's width is the parent's.
 Fragment disc_on(const PlacementPlan& plan, int x, int y, const FragmentOptions& options) {
   int curve = plan.field.curve(x, y), vertex = plan.field.vertex(x, y);
   while (vertex < plan.curves[curve].rim && plan.curves[curve].parent != kNone) {
     curve = plan.curves[curve].parent;
-    vertex = nearest_vertex(plan.curves[curve], Vec2(x, y));
+    vertex = nearest_point(plan.curves[curve].points, Vec2(x, y));
   }
   const bool wide = options.wide_radius > 0.0 && plan.curves[curve].radii[vertex] >= options.wide_radius;
   if (!wide) return along_fragment(plan.curves, curve, vertex, options);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "ramify/core/parallel.h"
+#include "ramify/geometry/polyline.h"
 #include "ramify/skeleton/branches.h"
 
 namespace ramify {
@@ -90,18 +91,9 @@ std::vector<Vec2> smooth_points(const std::vector<Vec2>& points, double sigma) {
   return out;
 }
 
-// Index of the sample of `strand` nearest to p.
-int nearest_sample(const Strand& strand, const Vec2& p) {
-  int best = 0;
-  for (int t = 1; t < strand.count(); ++t) {
-    if ((strand.points[t] - p).squaredNorm() < (strand.points[best] - p).squaredNorm()) best = t;
-  }
-  return best;
-}
-
 // Cuts a child at its parent's rim and takes back the false taper inside it (PICTURES 3, 12.3-7).
 void cut_at_rim(Strand& child, const Strand& parent) {
-  child.parent_sample = nearest_sample(parent, child.points.front());
+  child.parent_sample = nearest_point(parent.points, child.points.front());
   const int from = std::max(0, child.parent_sample - 200), to = std::min(parent.count(), child.parent_sample + 201);
   int k = 0;
   double rim = 0.0;

@@ -9,6 +9,7 @@
 
 #include "ramify/exemplar/trace_plan.h"
 #include "ramify/exemplar/traced_line.h"
+#include "ramify/geometry/polyline.h"
 
 namespace ramify {
 namespace {
@@ -250,12 +251,7 @@ class BranchBuilder {
   }
 
   BranchPoint nearest_on(int branch, const Vec2& p) const {
-    const auto& points = annotation_.branches[branch].points;
-    int best = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      if ((points[i] - p).squaredNorm() < (points[best] - p).squaredNorm()) best = static_cast<int>(i);
-    }
-    return {branch, best};
+    return {branch, nearest_point(annotation_.branches[branch].points, p)};
   }
 
   // A child's stretch beside its parent sees the parent's width and would teach a false taper (PICTURES 3): it gets the

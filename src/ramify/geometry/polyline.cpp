@@ -216,6 +216,14 @@ std::vector<Vec2> tangents(std::span<const Vec2> points) {
   return result;
 }
 
+int nearest_point(std::span<const Vec2> points, const Vec2& to) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if ((points[i] - to).squaredNorm() < (points[best] - to).squaredNorm()) best = i;
+  }
+  return static_cast<int>(best);
+}
+
 std::vector<int> simplify_polyline(std::span<const Vec2> points, double tolerance) {
   const int last = static_cast<int>(points.size()) - 1;
   std::vector<bool> keep(points.size(), false);

@@ -63,6 +63,9 @@ std::vector<double> turning_angles(std::span<const Vec2> points);
 // all points coincide.
 std::vector<Vec2> tangents(std::span<const Vec2> points);
 
+// Index of the point nearest to `to`, the first of several; needs at least one point.
+int nearest_point(std::span<const Vec2> points, const Vec2& to);
+
 // Indices of the points that keep the polyline within `tolerance` px (Douglas and Peucker 1973); both ends are kept.
 std::vector<int> simplify_polyline(std::span<const Vec2> points, double tolerance);
 

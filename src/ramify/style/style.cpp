@@ -42,18 +42,11 @@ BendingBranch resampled(const CleanBranch& branch, double step, double feature_s
   return out;
 }
 
-int nearest_vertex(const std::vector<Vec2>& points, const Vec2& target) {
-  const auto nearest = std::min_element(points.begin(), points.end(), [&](const Vec2& a, const Vec2& b) {
-    return (a - target).squaredNorm() < (b - target).squaredNorm();
-  });
-  return static_cast<int>(nearest - points.begin());
-}
-
 // How a child sits on its parent, seen from outside the parent's rim (PICTURES 3).
 void tie_to_parent(SourceBranch& child, const BendingBranch& own, const BendingBranch& parent, const Vec2& junction,
                    int extension) {
   const int last = static_cast<int>(parent.points.size()) - 1;
-  int at = nearest_vertex(parent.points, junction);
+  int at = nearest_point(parent.points, junction);
   if (last >= 2) at = std::clamp(at, 1, last - 1);
   child.parent_vertex = at;
   const double along = angle_of(parent.points[std::min(last, at + 2)] - parent.points[std::max(0, at - 2)]);
