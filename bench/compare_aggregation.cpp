@@ -8,7 +8,7 @@
 #include <ctime>
 
 #include "ramify/growth/aggregation.h"
-#include "ramify/growth/dendrite.h"
+#include "ramify/recipe/planning.h"
 #include "ramify/skeleton/statistics.h"
 
 using namespace ramify;
@@ -38,20 +38,14 @@ void run(Rival& rival, const Grow& grow) {
   rival.box.push_back(box_dimension(skeleton));
 }
 
-// The command's preset dla, on the paper's canvas.
+// On the paper's canvas.
 Skeleton imitate(std::uint64_t seed) {
-  DendriteTarget target;
-  target.lattice.width = target.lattice.height = 500;
-  target.lattice.weights = HashedWeights{seed, 1.0, 40.0, false};
-  target.generators = {target.lattice.node(250, 250)};
-  DendriteOptions options;
-  options.placement = EndpointPlacement::Aggregate;
-  options.endpoints = 20000;
-  options.distance = 5.0;
-  options.attenuation = 2.0;
-  options.branching = 3.0;
-  options.rounds = 2;
-  return dendrite_skeleton(grow_dendrite(std::move(target), options, Rng(seed), {}), 1.0, {});
+  DendriteRequest request;
+  request.size = "500x500";
+  request.roots = "250,250";
+  apply_preset(*find_preset(dendrite_presets(), "dla"), describe(request));
+  return dendrite_skeleton(grow_dendrite(load_dendrite(request, seed, {}), request.grow, Rng(seed), {}), 1.0,
+                           request.thickness);
 }
 
 Skeleton walk(std::uint64_t seed, WalkerLaunch launch, int side) {

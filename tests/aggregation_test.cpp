@@ -8,8 +8,8 @@
 #include <set>
 
 #include "ramify/core/error.h"
-#include "ramify/growth/dendrite.h"
 #include "ramify/growth/far_walker.h"
+#include "ramify/recipe/planning.h"
 #include "ramify/skeleton/statistics.h"
 
 using namespace ramify;
@@ -171,22 +171,15 @@ TEST_CASE("far walkers: nothing to meet ends the walk") {
 }
 
 TEST_CASE("dendrite: aggregating endpoints make the dimensions of walkers, and screen what is inside") {
+  DendriteRequest request;
+  request.size = "500x500";
+  request.roots = "250,250";
+  apply_preset(*find_preset(dendrite_presets(), "dla"), describe(request));
   double mass = 0.0, boxes = 0.0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    DendriteTarget target;
-    target.lattice.width = target.lattice.height = 500;
-    target.lattice.weights = HashedWeights{seed, 1.0, 40.0, false};
-    target.generators = {target.lattice.node(250, 250)};
-    DendriteOptions options;  // the command's preset dla
-    options.placement = EndpointPlacement::Aggregate;
-    options.endpoints = 20000;
-    options.distance = 5.0;
-    options.attenuation = 2.0;
-    options.branching = 3.0;
-    options.rounds = 2;
-    const Dendrite grown = grow_dendrite(target, options, Rng(seed), {});
+    const Dendrite grown = grow_dendrite(load_dendrite(request, seed, {}), request.grow, Rng(seed), {});
     REQUIRE(grown.rounds.size() == 2);
-    CHECK(grown.rounds[0] < 20000);  // the edge came first
+    CHECK(grown.rounds[0] < request.grow.endpoints);  // the edge came first
     const Skeleton skeleton = dendrite_skeleton(grown, 1.0, {});
     std::vector<Vec2> points;
     double extent = 0.0, late = 0.0;

@@ -263,7 +263,7 @@ TEST_CASE("palettes are read by name and by number and refused with the reason")
 }
 
 TEST_CASE("every preset names options that exist and act") {
-  for (const PaintPreset& preset : paint_presets()) {
+  for (const Preset& preset : paint_presets()) {
     PaintOptions options;
     for (const auto& [name, value] : preset.options) {
       bool found = false;

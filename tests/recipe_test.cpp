@@ -8,6 +8,7 @@
 #include "ramify/core/error.h"
 #include "ramify/image/image_io.h"
 #include "ramify/recipe/pipeline.h"
+#include "ramify/recipe/planning.h"
 #include "ramify/recipe/recipe.h"
 #include "support/pictures.h"
 #include "support/temp_folder.h"
@@ -170,6 +171,24 @@ TEST_CASE("options become texts that read back") {
   const auto values = option_values(
       {number("count", count, 0, 9, "", ""), number("size", size, 0.0, 1.0, "px", ""), flag("loud", loud, "")});
   CHECK(values == std::map<std::string, std::string>{{"count", "3"}, {"size", "0.1"}, {"loud", "true"}});
+}
+
+TEST_CASE("every preset for planning names options that exist, with values in their range") {
+  const auto check = [](const std::vector<Preset>& presets, auto request) {
+    for (const Preset& preset : presets) {
+      auto made = request;
+      apply_preset(preset, describe(made));
+      check_options(describe(made));
+      const auto values = option_values(describe(made));
+      for (const auto& [name, value] : preset.options) {
+        INFO(preset.name << " " << name);
+        REQUIRE(values.count(name) == 1);
+        CHECK(values.at(name) == value);
+      }
+    }
+  };
+  check(dendrite_presets(), DendriteRequest());
+  check(stylize_presets(), StylizeRequest());
 }
 
 TEST_CASE("grow: a stalk too narrow for the first try is tried again, not left as a stump") {

@@ -28,19 +28,15 @@ struct FigureArguments : PaintArguments {
   std::string skeleton_file;
 };
 
-std::vector<Preset> presets() {
-  std::vector<Preset> out;
-  for (const PaintPreset& preset : paint_presets()) out.push_back({preset.name, preset.about, preset.options});
-  return out;
-}
-
 std::string palette_names() {
   std::string line = "palettes:  ";
   for (const Palette& palette : named_palettes()) line += " " + palette.name;
   return line + "\n";
 }
 
-Outcome list_presets(bool json) { return {{}, {}, preset_list(presets(), json) + (json ? "" : palette_names())}; }
+Outcome list_presets(bool json) {
+  return {{}, {}, preset_list(paint_presets(), json) + (json ? "" : palette_names())};
+}
 
 // A photo below takes the place of the preset's paper; what `kept` names stays as it is.
 void apply(const CLI::App& app, PaintArguments& a, std::vector<std::string> kept = {}) {
@@ -48,7 +44,7 @@ void apply(const CLI::App& app, PaintArguments& a, std::vector<std::string> kept
   std::vector<OptionField> fields = describe(a.request.options);
   if (!a.request.over.empty()) kept.push_back("background");
   std::erase_if(fields, [&](const OptionField& field) { return std::find(kept.begin(), kept.end(), field.name) != kept.end(); });
-  apply_preset(presets(), a.preset, app, std::move(fields));
+  apply_preset(paint_presets(), a.preset, app, std::move(fields));
 }
 
 bool is_given(const CLI::App& app, const std::string& name) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "presets.h"
 
-#include <algorithm>
-
 #include "arguments.h"
 #include "ramify/core/error.h"
 #include "ramify/core/json.h"
@@ -26,21 +24,19 @@ std::string preset_list(const std::vector<Preset>& presets, bool json) {
 }
 
 void apply_preset(const std::vector<Preset>& presets, const std::string& name, const CLI::App& app, std::vector<OptionField> fields) {
-  const auto preset = std::find_if(presets.begin(), presets.end(), [&](const Preset& p) { return p.name == name; });
-  if (preset == presets.end()) {
+  const Preset* preset = find_preset(presets, name);
+  if (!preset) {
     std::vector<std::string> names;
     for (const Preset& p : presets) names.push_back(p.name);
     const std::string near = nearest_word(name, names);
     throw OptionError("preset", "'" + printable(name, 60) + "'",
                       (near.empty() ? std::string("is not known") : "is not known; did you mean " + near + "?") + " (--preset list shows all)");
   }
-  for (OptionField& field : fields) {
+  std::erase_if(fields, [&](const OptionField& field) {
     const CLI::Option* option = app.get_option_no_throw("--" + field.name);
-    if (option && option->count() > 0) continue;
-    for (const auto& [key, value] : preset->options) {
-      if (key == field.name) set_text(field, value);
-    }
-  }
+    return option && option->count() > 0;
+  });
+  ramify::apply_preset(*preset, std::move(fields));
 }
 
 }  // namespace ramify::app

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Settings that go well together, by name: --preset NAME sets what the command line does not, --preset list shows all.
+// Presets on the command line: --preset NAME sets what the command line does not, --preset list shows all.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "ramify/core/options.h"
+#include "ramify/core/preset.h"
 
 namespace ramify::app {
-
-struct Preset {
-  std::string name;
-  std::string about;  // one line
-  std::vector<std::pair<std::string, std::string>> options;
-};
 
 // As lines of text, or as JSON.
 std::string preset_list(const std::vector<Preset>& presets, bool json);

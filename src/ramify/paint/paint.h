@@ -8,6 +8,7 @@
 
 #include "ramify/core/monitor.h"
 #include "ramify/core/options.h"
+#include "ramify/core/preset.h"
 #include "ramify/core/random.h"
 #include "ramify/paint/drawing.h"
 #include "ramify/paint/foliage.h"
@@ -56,12 +57,6 @@ PaintScene prepare_painting(const Skeleton& skeleton, const PaintOptions& option
 // The drawing when it has grown to `growth` 0..1 of itself; at 1 it is finished.
 Drawing draw_painting(const PaintScene& scene, double growth, const Monitor& monitor);
 
-// Settings that go well together, by name.
-struct PaintPreset {
-  std::string name;
-  std::string about;  // one line
-  std::vector<std::pair<std::string, std::string>> options;
-};
-const std::vector<PaintPreset>& paint_presets();
+const std::vector<Preset>& paint_presets();
 
 }  // namespace ramify

@@ -3,8 +3,8 @@
 
 namespace ramify {
 
-const std::vector<PaintPreset>& paint_presets() {
-  static const std::vector<PaintPreset> presets{
+const std::vector<Preset>& paint_presets() {
+  static const std::vector<Preset> presets{
       {"ink", "black ink with fine points", {{"style", "ink"}, {"palette", "black"}}},
       {"sepia", "brown ink on cream paper", {{"style", "ink"}, {"palette", "sepia"}, {"background", "#f6efe0"}, {"taper", "0.8"}}},
       {"indigo", "blue washes paling outwards", {{"style", "ink"}, {"palette", "indigo"}, {"background", "#f3f5f9"}}},

@@ -8,6 +8,7 @@
 
 #include "ramify/core/monitor.h"
 #include "ramify/core/options.h"
+#include "ramify/core/preset.h"
 #include "ramify/graph/lattice.h"
 #include "ramify/growth/aggregation.h"
 #include "ramify/growth/cost_lines.h"
@@ -59,6 +60,7 @@ struct DendriteRequest {
   LoadLimits limits;
 };
 std::vector<OptionField> describe(DendriteRequest& request);
+const std::vector<Preset>& dendrite_presets();
 
 // Throws OptionError for options that would have no effect together.
 void check_dendrite(const DendriteRequest& request);
@@ -91,6 +93,7 @@ struct StylizeRequest {
   LoadLimits limits;
 };
 std::vector<OptionField> describe(StylizeRequest& request);
+const std::vector<Preset>& stylize_presets();
 std::vector<std::string> input_files(const StylizeRequest& request);
 
 struct StylizedPicture {
