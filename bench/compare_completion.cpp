@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// compare_completion [PHOTO] [FOLDER]: fills a hole of 70 % of a picture (default: a synthetic river of 1600 x 1200) with
-// ramify and with G'MIC's inpaint_matchpatch in turn, three times each, and prints both median times and their ratio.
-// The pictures are left in FOLDER (default: the current one) to be looked at: a time without its picture says nothing.
-// Without gmic on the PATH only ramify's time is printed.
+// compare_completion [PHOTO] [FOLDER]: fills a hole of 70 % of a picture (default: a synthetic river of 1600 x 1200)
+// with ramify and with G'MIC's inpaint_matchpatch in turn, three times each, and prints both median times and their
+// ratio. The pictures are left in FOLDER (default: compare_completion among the temporary files) to be looked at: a
+// time without its picture says nothing. Without gmic on the PATH only ramify's time is printed.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,10 @@ Mask middle_hole(Size size, double share) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string folder = argc > 2 ? argv[2] : ".";
+  const std::filesystem::path chosen =
+      argc > 2 ? argv[2] : std::filesystem::temp_directory_path() / "compare_completion";
+  std::filesystem::create_directories(chosen);
+  const std::string folder = chosen.string();
   const ColorImage image = argc > 1 ? load_image(argv[1]).color
                                     : make_synthetic(SyntheticKind::River, {1600, 1200}, Rng(1), Monitor()).photo.color;
   const Mask hole = middle_hole(image.size(), 0.7);
@@ -75,7 +79,8 @@ int main(int argc, char** argv) {
     }));
     if (have_gmic) theirs.push_back(seconds_of([&] { if (std::system(command.c_str()) != 0) std::puts("gmic failed"); }));
   }
-  std::printf("%d x %d, hole 70 %%\nramify complete           %6.2f s  sharpness %.2f\n", image.width(), image.height(), median(ours),
+  std::printf("pictures in %s\n%d x %d, hole 70 %%\nramify complete           %6.2f s  sharpness %.2f\n",
+              folder.c_str(), image.width(), image.height(), median(ours),
               relative_sharpness(load_image(ours_file).color, hole));
   if (!have_gmic) {
     std::puts("gmic is not on the PATH: nothing to compare with (Debian package gmic)");
