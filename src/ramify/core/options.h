@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options described once. Beside each options struct stands `std::vector<OptionField> describe(XOptions&)`, which lists
-// every field with its name, unit, range and help. Command-line flags, recipe JSON, the studio's sliders and the tables
-// of the manual are all made by walking that list; check_options walks it and throws OptionError.
+// every field with its name, unit, range and help. Command-line flags, --help and recipe JSON are all
+// made by walking that list; check_options walks it and throws OptionError.
 #pragma once
 
 #include <functional>
