@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ramify/compose/light_glow.h"
+#include "ramify/compose/light_layer.h"
 #include "ramify/compose/light_strand.h"
 #include "ramify/core/error.h"
 #include "ramify/core/parallel.h"
@@ -340,6 +341,85 @@ TEST_CASE("a stroke touches its parent though the parent's light is narrower tha
     }
     const double usual = quantile({light.begin() + 20, light.end()}, 0.5);
     CHECK(*std::min_element(light.begin(), light.begin() + 20) > 0.6 * usual);
+  }
+}
+
+namespace {
+
+constexpr double kThick = 12.0;  // px, radius
+constexpr double kBright = 8.0;  // px, half width of what shines in it
+
+// Straight strokes from edge to edge at these places.
+Skeleton upright_strokes(const std::vector<double>& places) {
+  Skeleton skeleton(kCanvas);
+  for (const double x : places) {
+    int parent = kNone;
+    for (int y = 0; y < kCanvas.height; y += 4) parent = skeleton.append({Vec3(x, y, 0.0), kThick, parent, 0, 0});
+  }
+  return skeleton;
+}
+
+// A thick stroke in the middle with hairs on its right, 2 px wide, that reach 13 px beyond its rim.
+Bolt hairy_bolt() {
+  Bolt bolt;
+  bolt.skeleton = upright_strokes({180.0});
+  ColorImage core(kCanvas), light(kCanvas);
+  for (int y = 0; y < kCanvas.height; ++y) {
+    for (int x = 0; x < kCanvas.width; ++x) {
+      const float v = std::clamp(static_cast<float>(kBright + 0.5 - std::abs(x - 180.0)), 0.0f, 1.0f);
+      core(x, y) = {0.8f * v, 0.75f * v, 0.7f * v};
+      if (x > 180 && x < 205 && y % 12 < 2) light(x, y) = {0.5f, 0.5f, 0.5f};
+    }
+  }
+  bolt.scene.plate = ground(0.08f, 0.1f, 1);
+  bolt.scene.background = bolt.scene.plate;
+  bolt.scene.photo = ColorImage(kCanvas);
+  for (std::size_t i = 0; i < core.pixels().size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const float added = std::max(core.pixels()[i][c], light.pixels()[i][c]);
+      const float total = linear_from_srgb(bolt.scene.plate.pixels()[i][c]) + added;
+      bolt.scene.photo.pixels()[i][c] = std::min(1.0f, srgb_from_linear(total));
+    }
+  }
+  return bolt;
+}
+
+}  // namespace
+
+TEST_CASE("a thick stroke has even edges where hairs leave the one it is copied from") {
+  const Bolt bolt = hairy_bolt();
+  const Composite result = compose_light(bolt.scene, bolt.skeleton, upright_strokes({120.0}), CompositeMode::Emit, {}, Rng(1), {});
+  const auto uneven = [](const ColorImage& image, double middle) {
+    std::vector<double> light;
+    for (int y = 20; y < kCanvas.height - 20; ++y) {
+      for (const double side : {-1.0, 1.0}) {
+        for (double d = 1.2 * kThick; d < 1.8 * kThick; d += 1.0) {
+          light.push_back(linear_from_srgb(luma(image(static_cast<int>(middle + side * d), y))));
+        }
+      }
+    }
+    return quantile(light, 0.98) - quantile(light, 0.5);
+  };
+  REQUIRE(uneven(bolt.scene.photo, 180.0) > 0.3);
+  CHECK(uneven(result.color, 120.0) < 0.05);
+}
+
+TEST_CASE("no line runs along the rim of a stroke whose light is narrower than its width") {
+  const std::vector<Strand> strands = make_strands(upright_strokes({180.0}));
+  LightLayer layer;
+  layer.mode = CompositeMode::Emit;
+  layer.glow_model.weights = {{{0.0, 0.0, 0.0}, {0.1, 0.1, 0.1}, {0.9, 0.9, 0.9}}};
+  ColorImage value(kCanvas, {0.05f, 0.05f, 0.05f}), core(kCanvas);  // some halo everywhere
+  for (int y = 0; y < kCanvas.height; ++y) {
+    for (int x = 0; x < kCanvas.width; ++x) {
+      if (std::abs(x - 180.0) <= kBright) core(x, y) = value(x, y) = {0.8f, 0.75f, 0.7f};
+    }
+  }
+  const ColorImage result = apply_light(layer, ground(0.08f, 0.1f, 1), value, core, kept_glow_share(strands, kCanvas),
+                                        ScalarImage(kCanvas));
+  for (int x = 180 + static_cast<int>(kBright) + 1; x < 180 + 30; ++x) {
+    CAPTURE(x);
+    CHECK(luma(result(x + 1, 150)) - luma(result(x, 150)) < 0.006);
   }
 }
 

@@ -70,7 +70,7 @@ ColorImage new_core(const LightLayer& layer, const WovenLight& woven, const std:
 
 // Where a new core brings its own glow along, 0..1: not where it fades.
 ScalarImage own_glow(const WovenLight& woven, const std::vector<Strand>& targets) {
-  ScalarImage inside = core_share(targets, woven.value.size());
+  ScalarImage inside = kept_glow_share(targets, woven.value.size());
   for (std::size_t i = 0; i < inside.pixels().size(); ++i) inside.pixels()[i] *= woven.window.pixels()[i];
   return inside;
 }

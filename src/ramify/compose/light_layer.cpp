@@ -186,6 +186,8 @@ ScalarImage core_share(const std::vector<Strand>& strands, Size size) {
   return gaussian_blur(share, 0.7);
 }
 
+ScalarImage kept_glow_share(const std::vector<Strand>& strands, Size size) { return strand_share(strands, size, 0.5); }
+
 LightLayer make_light_layer(const ColorImage& photo, const ColorImage& plate, const std::vector<Strand>& strands,
                             CompositeMode mode, bool brighter) {
   LightLayer layer;
@@ -213,7 +215,7 @@ LightLayer make_light_layer(const ColorImage& photo, const ColorImage& plate, co
   layer.glow_model = fit_glow(core, light, around);
   layer.glow = render_glow(layer.glow_model, core);
   layer.gain_of_radius = fit_gain_of_radius(layer.glow_model, plain, light, around, strands);
-  const ScalarImage kept = core_share(strands, photo.size());
+  const ScalarImage kept = kept_glow_share(strands, photo.size());
   layer.value = ColorImage(photo.size());
   for_pixels(photo.size(), [&](int x, int y) {
     for (int c = 0; c < 3; ++c) {

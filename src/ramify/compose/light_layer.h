@@ -27,6 +27,11 @@ struct LightLayer {
 LightLayer make_light_layer(const ColorImage& photo, const ColorImage& plate, const std::vector<Strand>& strands,
                             CompositeMode mode, bool brighter);
 
+// How much of a core's own glow goes with it: all of it on the strands' centre lines, none beyond their rims. Soft, for
+// where a new branch glows more than the one it was copied from, the difference appears outside the core alone and would
+// outline it.
+ScalarImage kept_glow_share(const std::vector<Strand>& strands, Size size);
+
 // 1 within the strands' radius, 0 outside, softened by 0.7 px.
 ScalarImage core_share(const std::vector<Strand>& strands, Size size);
 

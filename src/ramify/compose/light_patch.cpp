@@ -16,6 +16,9 @@ constexpr double kRimThin = 0.55, kRimThick = 0.74;  // share of s where the sur
 constexpr double kForeignCost = 1.5;
 constexpr double kUnevenCost = 3.0;
 constexpr double kRimFrom = 0.8;    // share of s from where the disc itself fades, for ends and hairpins
+constexpr double kEvenFrom = 4.0;   // px, radius from which strokes have even edges; wholly from twice that
+constexpr float kSpike = 1.5f;      // of the median light as far from the line
+constexpr float kSpikeFoot = 0.02f; // linear light, over the channels
 constexpr double kSharpTurn = 1.0;  // rad within one radius s
 
 double ramp(double x) {
@@ -123,6 +126,36 @@ void mirror_out(const PatchFrame& frame, const std::vector<float>& foreign, Ligh
   }
 }
 
+// Thick strokes have even edges; what stands out of them on one side, brighter than twice the median as far from the
+// line, is the start of a branch, a tick of a fold. Thin ones are all zigzag and stay as they are.
+void cut_spikes(const PatchFrame& frame, LightPatch& patch) {
+  const double thick = std::clamp((frame.radius - kEvenFrom) / kEvenFrom, 0.0, 1.0);
+  if (thick <= 0.0) return;
+  const int rings = static_cast<int>(frame.box.s) + 1;
+  std::vector<std::vector<float>> light(static_cast<std::size_t>(2 * rings));
+  const auto ring_of = [&](std::size_t i) {
+    const int ring = std::min(rings - 1, static_cast<int>(frame.distance[i]));
+    return static_cast<std::size_t>(frame.points[i].across < 0.0f ? ring : rings + ring);
+  };
+  const auto strength = [](const Rgb& v) { return v.r + v.g + v.b; };
+  for (std::size_t i = 0; i < patch.value.size(); ++i) {
+    if (frame.window[i] > 0.0f) light[ring_of(i)].push_back(strength(patch.value[i]));
+  }
+  for (std::vector<float>& ring : light) {
+    if (ring.empty()) continue;
+    const auto middle = ring.begin() + static_cast<std::ptrdiff_t>(ring.size() / 2);
+    std::nth_element(ring.begin(), middle, ring.end());
+    ring = {*middle};
+  }
+  for (std::size_t i = 0; i < patch.value.size(); ++i) {
+    if (frame.window[i] <= 0.0f || frame.distance[i] < 0.5 * frame.radius) continue;
+    const std::size_t ring = ring_of(i), across = ring < light.size() / 2 ? ring + light.size() / 2 : ring - light.size() / 2;
+    const float other = light[across].empty() ? light[ring].front() : light[across].front();
+    const float most = kSpike * std::min(light[ring].front(), other) + kSpikeFoot, own = strength(patch.value[i]);
+    if (own > most) patch.value[i] = static_cast<float>(1.0 - thick * (1.0 - most / own)) * patch.value[i];
+  }
+}
+
 double flaw_cost(const PatchFrame& frame, const std::vector<float>& foreign, const LightPatch& patch) {
   double alien = 0.0;
   int core = 0;
@@ -195,6 +228,7 @@ LightPatch cut_patch(const LightSource& source, const LightLayer& layer, const P
   for (Rgb& v : patch.value) v = {std::max(v.r, floor), std::max(v.g, floor), std::max(v.b, floor)};
   patch.cost = match.cost + flaw_cost(frame, foreign, patch);
   mirror_out(frame, foreign, patch);
+  if (layer.mode == CompositeMode::Emit) cut_spikes(frame, patch);
   const ToneGain gains = tone_gain(source.strands[match.place.strand], match.place.sample, target, frame.sample,
                                    static_cast<int>(2.0 * frame.box.s));
   for (std::size_t i = 0; i < patch.value.size(); ++i) {

@@ -254,6 +254,28 @@ Mask strand_mask(const std::vector<Strand>& strands, Size size, double grow, dou
   return mask;
 }
 
+ScalarImage strand_share(const std::vector<Strand>& strands, Size size, double softness) {
+  constexpr double kSharpest = 1.2;  // px
+  ScalarImage share(size);
+  for (const Strand& s : strands) {
+    for (int t = 0; t < s.count(); ++t) {
+      const Vec2& p = s.points[t];
+      const double half = std::max(kSharpest, softness * s.radii[t]), reach = s.radii[t] + 0.5 + half;
+      const int x0 = std::max(0, static_cast<int>(std::ceil(p.x() - reach)));
+      const int x1 = std::min(size.width - 1, static_cast<int>(std::floor(p.x() + reach)));
+      const int y0 = std::max(0, static_cast<int>(std::ceil(p.y() - reach)));
+      const int y1 = std::min(size.height - 1, static_cast<int>(std::floor(p.y() + reach)));
+      for (int y = y0; y <= y1; ++y) {
+        for (int x = x0; x <= x1; ++x) {
+          const double u = std::clamp((reach - (Vec2(x, y) - p).norm()) / (2.0 * half), 0.0, 1.0);
+          share(x, y) = std::max(share(x, y), static_cast<float>(u * u * (3.0 - 2.0 * u)));
+        }
+      }
+    }
+  }
+  return share;
+}
+
 double end_fade(const Strand& strand, int t, double tip_fade) {
   const auto rise = [&](int samples, double radius) {
     const double u = std::clamp(samples / (tip_fade * (1.0 + 1.2 * radius)), 0.0, 1.0);

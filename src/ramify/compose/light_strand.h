@@ -54,6 +54,10 @@ LabelImage strand_labels(const std::vector<Strand>& strands, Size size, double g
 // 255 within grow * radius + add px of any strand.
 Mask strand_mask(const std::vector<Strand>& strands, Size size, double grow, double add);
 
+// 1 on the strands' centre lines, falling to 0 across their rims over `softness` of their radius to both sides, but over
+// at least 1.2 px.
+ScalarImage strand_share(const std::vector<Strand>& strands, Size size, double softness);
+
 // 0..1: how much of a strand's light is left at sample t, where open ends fade over tip_fade * (1 + 1.2 r) px.
 double end_fade(const Strand& strand, int t, double tip_fade);
 
