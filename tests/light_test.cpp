@@ -404,6 +404,30 @@ TEST_CASE("a thick stroke has even edges where hairs leave the one it is copied 
   CHECK(uneven(result.color, 120.0) < 0.05);
 }
 
+TEST_CASE("what shows beside a stroke before a bright cloud is no light of its own") {
+  const std::vector<Strand> strands = make_strands(upright_strokes({180.0}));
+  for (const float behind : {0.1f, 0.75f}) {
+    const ColorImage plate(kCanvas, {behind, behind, behind});
+    ColorImage photo = plate;
+    for (int y = 0; y < kCanvas.height; ++y) {
+      for (int x = 0; x < kCanvas.width; ++x) {
+        if (std::abs(x - 180.0) < 3.0 * kThick && y % 20 < 2) photo(x, y).r += 0.2f;
+        if (std::abs(x - 180.0) < kThick) photo(x, y) = {0.98f, 0.97f, 0.95f};
+      }
+    }
+    const LightLayer layer = make_light_layer(photo, plate, strands, CompositeMode::Emit, true);
+    double beside = 0.0;
+    for (int y = 100; y < 200; y += 20) beside += 0.2 * layer.value(180 + static_cast<int>(1.8 * kThick), y).r;
+    CAPTURE(behind);
+    if (behind < 0.5f) {
+      CHECK(beside > 0.005);
+    } else {
+      CHECK(beside == 0.0);
+    }
+    CHECK(layer.value(180, 150).r > 0.5f);
+  }
+}
+
 TEST_CASE("no line runs along the rim of a stroke whose light is narrower than its width") {
   const std::vector<Strand> strands = make_strands(upright_strokes({180.0}));
   LightLayer layer;

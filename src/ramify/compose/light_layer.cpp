@@ -20,6 +20,7 @@ constexpr double kGainSigma = 30.0;          // px
 constexpr float kGainFoot = 0.01f;           // weighted light squared: where there is no glow to measure the gain is 1
 constexpr int kWidthClasses = 5;
 constexpr float kDark = 0.03f;  // linear light
+constexpr float kNotBright = 0.05f, kBright = 0.2f;  // linear light of a plate whose errors exceed the glow before it
 constexpr float kGainLow = 0.1f, kGainHigh = 1.5f;
 constexpr float kCoreKept = 0.8f;    // share of the glow within a core that goes with the core: it is bright by itself
 constexpr double kPlateSigma = 3.0;  // px; the plate's own grain must not enter the layer
@@ -215,11 +216,14 @@ LightLayer make_light_layer(const ColorImage& photo, const ColorImage& plate, co
   layer.glow_model = fit_glow(core, light, around);
   layer.glow = render_glow(layer.glow_model, core);
   layer.gain_of_radius = fit_gain_of_radius(layer.glow_model, plain, light, around, strands);
-  const ScalarImage kept = kept_glow_share(strands, photo.size());
+  const ScalarImage kept = kept_glow_share(strands, photo.size()), inside = core_share(strands, photo.size());
   layer.value = ColorImage(photo.size());
   for_pixels(photo.size(), [&](int x, int y) {
+    const float behind = linear_from_srgb(luma(plate(x, y)));
+    const float trusted = std::clamp((kBright - behind) / (kBright - kNotBright), 0.0f, 1.0f);
+    const float share = inside(x, y) + (1.0f - inside(x, y)) * trusted;
     for (int c = 0; c < 3; ++c) {
-      layer.value(x, y)[c] = std::max(0.0f, light(x, y)[c] - (1.0f - kCoreKept * kept(x, y)) * layer.glow(x, y)[c]);
+      layer.value(x, y)[c] = share * std::max(0.0f, light(x, y)[c] - (1.0f - kCoreKept * kept(x, y)) * layer.glow(x, y)[c]);
     }
   });
   return layer;
