@@ -328,6 +328,55 @@ TEST_CASE("a creek joins a wide river in its middle") {
   }
 }
 
+TEST_CASE("strokes of a crown are the branches they were drawn as") {
+  // Two limbs that cross, and a twig that ends 6 px beside the trunk.
+  const std::vector<Stroke> truth{{{Vec2(60, 210), Vec2(60, -10)}, 5.0},
+                                  {{Vec2(60, 120), Vec2(180, 40)}, 2.0},
+                                  {{Vec2(60, 60), Vec2(180, 130)}, 2.0},
+                                  {{Vec2(120, 80), Vec2(71, 98)}, 1.5}};
+  const Photo photo = grey_photo(drawn(truth, {220, 200}, 0.8, 3.0 / 255.0, 11));
+  TraceOptions options;
+  options.polarity = TracePolarity::Dark;
+  options.as_drawn = options.straight = true;
+  options.through = "60,199 60,100 60,0; 64,117 120,80 178,41; 64,62 120,95 178,129; 120,80 95,89 72,97";
+  const Annotation tree = trace_photo(photo, options);
+  REQUIRE(tree.branches.size() == truth.size());
+  CHECK(tree.links.empty());
+  const std::vector<int> parents{kNone, 0, 0, 1};
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    INFO("stroke " << i);
+    const AnnotatedBranch& branch = tree.branches[i];
+    CHECK((branch.parent ? branch.parent->branch : kNone) == parents[i]);
+    for (const Vec2& p : branch.points) {
+      INFO("at " << p.x() << ", " << p.y());
+      CHECK(distance_to_strokes(p, {truth[i]}) < 1.5);
+    }
+    CHECK(median(branch.radii) == Approx(truth[i].radius).margin(0.5));
+    CHECK((branch.points.back() - truth[i].points.back()).norm() < 14.0);
+  }
+}
+
+TEST_CASE("a stroke with radii keeps them") {
+  const Photo photo = grey_photo(drawn({{{Vec2(10, 50), Vec2(190, 50)}, 3.0}}, {200, 100}, 0.8, 3.0 / 255.0, 12));
+  TraceOptions options;
+  options.polarity = TracePolarity::Dark;
+  options.as_drawn = options.straight = true;
+  options.through = "10,50,8 110,50,4 190,50,4";
+  const Annotation annotation = trace_photo(photo, options);
+  REQUIRE(annotation.branches.size() == 1);
+  const AnnotatedBranch& branch = annotation.branches.front();
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    INFO("x " << branch.points[i].x());
+    if (branch.points[i].x() < 20.0) continue;  // where a line ends its radii are calmed to one side
+    CHECK(branch.radii[i] ==
+          Approx(branch.points[i].x() < 110.0 ? 8.0 - 0.04 * (branch.points[i].x() - 10.0) : 4.0).margin(0.2));
+  }
+  options.through = "10,50,8 110,50";
+  CHECK_THROWS_AS(trace_photo(photo, options), OptionError);
+  options.through = "10,50,8 110,50,-1";
+  CHECK_THROWS_AS(trace_photo(photo, options), OptionError);
+}
+
 TEST_CASE("a thin line is not taken for one between two banks") {
   const std::vector<Stroke> truth{{{Vec2(-10, 60), Vec2(260, 70)}, 3.0}};
   const Photo photo = grey_photo(drawn(truth, {240, 200}, 0.8, 6.0 / 255.0, 9));

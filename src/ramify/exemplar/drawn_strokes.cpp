@@ -82,10 +82,16 @@ DrawnStrokes draw_strokes(const RidgeEvidence& evidence, const LatticeCosts& cos
     }
     if (first != stroke.front()) stroke.insert(stroke.begin(), first);
     if (last != stroke.back()) stroke.push_back(last);
-    draw_path(drawn.lines, options.straight ? straight_path(stroke, size)
-                                            : live_wire(evidence, costs, stroke, kSnap, drawn.lines, monitor));
+    draw_path(drawn.lines, draw_stroke(evidence, costs, stroke, options.straight, drawn.lines, monitor));
   }
   return drawn;
+}
+
+std::vector<Pixel> draw_stroke(const RidgeEvidence& evidence, const LatticeCosts& costs,
+                               const std::vector<Vec2>& points, bool straight, const Mask& fixed,
+                               const Monitor& monitor) {
+  return straight ? straight_path(points, evidence.picture.size())
+                  : live_wire(evidence, costs, points, kSnap, fixed, monitor);
 }
 
 void leave_out(RidgeEvidence& evidence, const DrawnStrokes& drawn) {

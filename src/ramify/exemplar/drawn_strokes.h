@@ -20,6 +20,11 @@ DrawnStrokes no_strokes(Size size);
 DrawnStrokes draw_strokes(const RidgeEvidence& evidence, const LatticeCosts& costs, const TraceOptions& options,
                           const Monitor& monitor = {});
 
+// The pixels of one stroke by itself, from its first point to its last.
+std::vector<Pixel> draw_stroke(const RidgeEvidence& evidence, const LatticeCosts& costs,
+                               const std::vector<Vec2>& points, bool straight, const Mask& fixed,
+                               const Monitor& monitor = {});
+
 // Within wide strokes no other thick branch is looked for; afterwards they count as thick branches themselves.
 void leave_out(RidgeEvidence& evidence, const DrawnStrokes& drawn);
 void take_in(RidgeEvidence& evidence, const DrawnStrokes& drawn);

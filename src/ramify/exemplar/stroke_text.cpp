@@ -46,6 +46,31 @@ std::vector<std::vector<Vec2>> parse_strokes(const std::string& option, const st
   return strokes;
 }
 
+std::vector<WideStroke> parse_wide_strokes(const std::string& option, const std::string& text) {
+  std::vector<WideStroke> strokes;
+  for (const std::string& piece : split(text, ';')) {
+    if (blank(piece)) continue;
+    WideStroke stroke;
+    std::istringstream in(piece);
+    for (std::string word; in >> word;) {
+      const auto first = word.find(','), second = first == std::string::npos ? first : word.find(',', first + 1);
+      stroke.points.push_back(parse_points(option, word.substr(0, second)).front());
+      if (second == std::string::npos) continue;
+      double radius = 0.0;
+      if (!parse_number(word.substr(second + 1), radius) || !(radius > 0.0)) {
+        throw OptionError(option, printable(word, 40), "not a point; write x,y or x,y,radius in pixels");
+      }
+      stroke.radii.push_back(radius);
+    }
+    if (stroke.points.size() < 2) throw OptionError(option, printable(piece, 40), "a stroke needs two points or more");
+    if (!stroke.radii.empty() && stroke.radii.size() != stroke.points.size()) {
+      throw OptionError(option, printable(piece, 40), "give a stroke's radius at all of its points or at none");
+    }
+    strokes.push_back(std::move(stroke));
+  }
+  return strokes;
+}
+
 std::vector<Region> parse_regions(const std::string& option, const std::string& text) {
   static const std::vector<std::string> names{"ignore", "outside", "keep", "landmark", "habitat"};
   std::vector<Region> regions;

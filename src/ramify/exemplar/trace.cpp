@@ -166,6 +166,70 @@ TraceGraph traced_graph(const Photo& photo, RidgeEvidence& evidence, const Mask&
   return graph;
 }
 
+// The radii given at points along a line, in between by distance along it.
+std::vector<double> radii_along(const std::vector<Vec2>& line, const WideStroke& given) {
+  std::vector<int> at;  // index into the line
+  for (const Vec2& p : given.points) {
+    int best = at.empty() ? 0 : at.back();
+    for (int i = best; i < static_cast<int>(line.size()); ++i) {
+      if ((line[i] - p).norm() < (line[best] - p).norm()) best = i;
+    }
+    at.push_back(best);
+  }
+  std::vector<double> radii(line.size(), given.radii.front());
+  for (std::size_t k = 0; k + 1 < at.size(); ++k) {
+    for (int i = at[k]; i < static_cast<int>(line.size()); ++i) {
+      const double t = at[k + 1] > at[k] ? std::min(1.0, (i - at[k]) / static_cast<double>(at[k + 1] - at[k])) : 1.0;
+      radii[i] = given.radii[k] + t * (given.radii[k + 1] - given.radii[k]);
+    }
+  }
+  return radii;
+}
+
+// Strokes of a crown cross, run side by side and end near each other: each is the branch it was drawn as.
+Annotation annotation_as_drawn(const RidgeEvidence& evidence, Size size, const TraceOptions& options,
+                               const Monitor& monitor) {
+  constexpr double kStartsAt = 16.0;  // px from an earlier stroke's rim
+  constexpr double kRoot = 4.0;       // px from a given root
+  const LatticeCosts costs = live_wire_costs(evidence);
+  const std::vector<WideStroke> drawn = parse_wide_strokes("through", options.through);
+  const std::vector<Vec2> roots = parse_points("root", options.root);
+  std::vector<OwnStroke> strokes;
+  for (const WideStroke& stroke : drawn) {
+    const std::vector<Vec2>& points = stroke.points;
+    OwnStroke own;
+    double nearest = kStartsAt;
+    const bool root =
+        std::any_of(roots.begin(), roots.end(), [&](const Vec2& r) { return (r - points.front()).norm() < kRoot; });
+    for (std::size_t s = 0; s < (root ? 0 : strokes.size()); ++s) {
+      for (std::size_t i = 0; i < strokes[s].line.size(); ++i) {
+        const double away = (strokes[s].line[i] - points.front()).norm() - strokes[s].radii[i];
+        if (away < nearest) nearest = away, own.parent = static_cast<int>(s), own.parent_at = static_cast<int>(i);
+      }
+    }
+    TraceEdge edge;
+    for (const Pixel& p : draw_stroke(evidence, costs, points, options.straight, {}, monitor))
+      edge.line.emplace_back(p.x, p.y);
+    if (stroke.radii.empty()) {
+      measure_edge(edge, evidence, options);
+    } else {
+      edge.line = smoothed(evenly_spaced(edge.line, 1.0), kStaircase);
+      edge.radii = radii_along(edge.line, stroke);
+    }
+    own.line = std::move(edge.line);
+    own.radii = std::move(edge.radii);
+    if (own.parent != kNone) {  // from the parent's middle on
+      const Vec2 start = strokes[own.parent].line[own.parent_at];
+      const std::vector<Vec2> lead = evenly_spaced({start, own.line.front()}, 1.0);
+      own.line.insert(own.line.begin(), lead.begin(), lead.end() - 1);
+      own.radii.insert(own.radii.begin(), lead.size() - 1, own.radii.front());
+    }
+    strokes.push_back(std::move(own));
+    monitor.report(static_cast<double>(strokes.size()) / static_cast<double>(drawn.size()));
+  }
+  return annotation_from_strokes(strokes, size, {});
+}
+
 // Branches that start within a found landmark, around its middle: further inside they overlap.
 Annotation rooted_on(const Landmark& landmark, const TraceGraph& graph, Size size, std::vector<Region>& regions) {
   std::vector<int> ends;
@@ -200,6 +264,10 @@ std::vector<OptionField> describe(TraceOptions& o) {
       flag("flatten", o.flatten, "Even out slow changes of tone and contrast first."),
       text("through", o.through, "Strokes to follow by live wire: \"x,y x,y; x,y x,y\" in px."),
       flag("automatic", o.automatic, "With --through: find the other branches as well."),
+      flag("as-drawn", o.as_drawn,
+           "With --through: every stroke is a branch of its own, from the earlier one it starts at (or a --root); "
+           "crossings "
+           "join nothing, and points may be x,y,radius."),
       flag("straight", o.straight, "With --through: follow the points alone, not the picture."),
       number("banks", o.banks, 0.0, 10000.0, "px",
              "With --through: strokes along branches wider than this are traced by their two banks; 0: never."),
@@ -224,6 +292,16 @@ Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Mo
   Mask excluded = excluded_pixels(photo, regions);
   if (find_regions && !regions.empty()) excluded = dilate(excluded, kRimFade);
   RidgeEvidence evidence = gather_evidence(photo.color, excluded, options, monitor.stage("ridges", 0.0, 0.5));
+  const auto finished = [&](Annotation annotation) {
+    calm_radii(annotation);
+    annotation = thinned_out(annotation);
+    sign_annotation(annotation, photo, evidence);
+    annotation.regions = std::move(regions);
+    return annotation;
+  };
+  if (options.as_drawn && !options.through.empty()) {
+    return finished(annotation_as_drawn(evidence, photo.color.size(), options, monitor.stage("strokes", 0.5, 1.0)));
+  }
   const TraceGraph graph = traced_graph(photo, evidence, excluded, options, monitor);
   TreeOptions tree;
   tree.roots = parse_points("root", options.root);
@@ -235,11 +313,7 @@ Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Mo
   Annotation annotation = landmark ? rooted_on(*landmark, graph, photo.color.size(), regions)
                                    : annotation_from_graph(graph, photo.color.size(), tree);
   if (by_itself) annotation = without_stubs(annotation);
-  calm_radii(annotation);
-  annotation = thinned_out(annotation);
-  sign_annotation(annotation, photo, evidence);
-  annotation.regions = std::move(regions);
-  return annotation;
+  return finished(std::move(annotation));
 }
 
 Annotation remeasure_widths(const Photo& photo, const Annotation& annotation, const TraceOptions& options,

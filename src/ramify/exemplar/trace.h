@@ -29,6 +29,7 @@ struct TraceOptions {
   std::string through;       // px "x,y x,y …; x,y …": strokes to follow by live wire
   bool automatic = false;    // with `through`: find the other branches as well
   bool straight = false;     // with `through`: follow the points alone, not the picture
+  bool as_drawn = false;     // with `through`: every stroke is a branch of its own; points may be x,y,radius
   double banks = 40.0;       // px, 0 … 10000: with `through`, wider branches are traced by their two banks; 0: never
   std::string root;          // px "x,y x,y …": where the structure starts
   std::string regions;       // "outside: x,y x,y x,y …; keep: …; ignore: …; landmark: …" polygons, px

@@ -308,4 +308,45 @@ Annotation annotation_from_graph(const TraceGraph& graph, Size size, const TreeO
   return builder.take();
 }
 
+Annotation annotation_from_strokes(const std::vector<OwnStroke>& strokes, Size size, const TreeOptions& options) {
+  // Every stroke is an edge with its own two nodes, and has a node where each of its children starts.
+  TraceGraph graph;
+  StrokeNet net;
+  std::vector<StrokePlace> plan;
+  std::vector<std::vector<int>> forks(strokes.size());  // indices into the line
+  for (const OwnStroke& s : strokes) {
+    if (s.parent != kNone) forks[s.parent].push_back(s.parent_at);
+  }
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    const OwnStroke& s = strokes[i];
+    TraceStroke stroke;
+    stroke.line = s.line;
+    stroke.radii = s.radii;
+    stroke.confidence = 1.0;
+    stroke.at = forks[i];
+    stroke.at.push_back(0);
+    stroke.at.push_back(static_cast<int>(s.line.size()) - 1);
+    std::sort(stroke.at.begin(), stroke.at.end());
+    stroke.at.erase(std::unique(stroke.at.begin(), stroke.at.end()), stroke.at.end());
+    for (const int at : stroke.at) {
+      stroke.nodes.push_back(static_cast<int>(graph.nodes.size()));
+      graph.nodes.push_back(s.line[at]);
+    }
+    graph.edges.push_back({stroke.nodes.front(), stroke.nodes.back(), s.line, s.radii});
+    StrokePlace place;
+    place.stroke = static_cast<int>(i);
+    place.parent = s.parent;
+    if (s.parent != kNone) {
+      const std::vector<int>& at = net.strokes[s.parent].at;
+      place.parent_node = static_cast<int>(std::lower_bound(at.begin(), at.end(), s.parent_at) - at.begin());
+    }
+    plan.push_back(place);
+    net.strokes.push_back(std::move(stroke));
+  }
+  const std::vector<bool> on_frame = frame_nodes(graph, size, options);
+  BranchBuilder builder(net, on_frame, size);
+  builder.add(plan);
+  return builder.take();
+}
+
 }  // namespace ramify

@@ -19,4 +19,15 @@ struct TreeOptions {
 // strokes that never leave their parent are dropped. Radii must be measured. `size` is the canvas.
 Annotation annotation_from_graph(const TraceGraph& graph, Size size, const TreeOptions& options);
 
+// A stroke that is a branch of its own, from a point of an earlier one on.
+struct OwnStroke {
+  std::vector<Vec2> line;     // px
+  std::vector<double> radii;  // px, one per point
+  int parent = kNone;         // an earlier stroke; a root has none
+  int parent_at = 0;          // index into the parent's line
+};
+
+// The strokes as branches: what crosses or ends near another is not joined.
+Annotation annotation_from_strokes(const std::vector<OwnStroke>& strokes, Size size, const TreeOptions& options);
+
 }  // namespace ramify
