@@ -11,6 +11,7 @@ import unittest
 import zlib
 
 BIN = os.environ["RAMIFY_BIN"]
+SANITIZED = b"__asan_init" in pathlib.Path(BIN).read_bytes()  # AddressSanitizer: 16 TB of address space, more memory and time
 
 
 def png(width, height, pixel=lambda x, y: (128, 128, 128), claim=None):

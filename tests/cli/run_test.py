@@ -13,7 +13,7 @@ import tempfile
 import time
 import unittest
 
-from harness import BIN, CliTest, png
+from harness import BIN, SANITIZED, CliTest, png
 
 
 class SameBytes(CliTest):
@@ -159,6 +159,7 @@ class Limits(CliTest):
         self.fails(5, "processor time", "synth", "builtin:river", "--count", "1000", "-o", self.path("a.png"), "--no-clobber",
                    "--threads", "1", "--size", "4000x4000", preexec_fn=limit)
 
+    @unittest.skipIf(SANITIZED, "AddressSanitizer reserves more address space than any such limit")
     def test_little_memory_is_an_error_or_enough(self):
         seen = set()
         for mebibytes in range(150, 1250, 100):
