@@ -128,6 +128,17 @@ class Annotations(CliTest):
         self.path("other.ramify.json", other)
         self.ok("grow", "other.ramify.json", "-o", self.path("a.swc"), "--allow-other-photo")
 
+    def test_a_skeleton_on_another_canvas_is_refused_unless_allowed(self):
+        skeleton = self.path("skeleton.json")
+        self.ok("convert", self.exemplar, "-o", skeleton)
+        self.ok("grow", self.photo, "--annotation", skeleton, "-o", self.path("same.swc"))
+        value = json.loads(pathlib.Path(skeleton).read_text())
+        value["size"] = [80, 60]
+        self.path("skeleton.json", json.dumps(value))
+        self.fails(3, ["skeleton.json", "80x60", "240x180"], "grow", self.photo, "--annotation", skeleton, "-o", "a.swc")
+        self.ok("grow", self.photo, "--annotation", skeleton, "-o", self.path("a.swc"), "--allow-other-photo")
+        self.fails(3, "--annotation FILE", "synth", skeleton, "-o", "a.png")
+
     def test_a_missing_photo_says_where_it_was_looked_for(self):
         self.refuse(self.edited(lambda v: v["photo"].__setitem__("file", "gone.png")), "gone.png", "RAMIFY_PHOTOS")
 

@@ -168,7 +168,9 @@ std::string list_text(const Items& items, ToJson&& to_json) {
 Annotation parse_annotation(const std::string& json, const std::string& name) {
   const Json document = parse_strictly(json, name);
   const Reader in(document, name, "");
-  if (in.at("format").text() != "ramify-annotation") in.at("format").fail("this is not a ramify annotation");
+  if (in.at("format").text() != "ramify-annotation") {
+    in.at("format").fail("this is not a ramify annotation; a skeleton goes with its photo: PHOTO --annotation FILE");
+  }
   if (in.at("version").integer(1, 1 << 20) > 1) in.at("version").fail("made by a newer ramify; please update");
   Annotation annotation;
   const Reader photo = in.at("photo");

@@ -60,8 +60,15 @@ Annotation annotation_for(const Photo& photo, const ExemplarRequest& request, co
   if (text.find("ramify-annotation") != std::string::npos) return load_annotation(request.annotation);
   const LoadedSkeleton loaded = load_skeleton(request.annotation);
   for (const std::string& note : loaded.notes) monitor.note(note);
+  const Size canvas = loaded.skeleton.size, size = photo.color.size();
+  if (text.find("\"ramify-skeleton\"") != std::string::npos && canvas != size && !request.allow_other_photo) {
+    throw InputError(printable(request.annotation, 300),
+                     "its canvas is " + std::to_string(canvas.width) + "x" + std::to_string(canvas.height) + " px, " +
+                         printable(photo.name) + " is " + std::to_string(size.width) + "x" +
+                         std::to_string(size.height) + " px; --allow-other-photo uses it all the same");
+  }
   Annotation annotation = annotation_from_skeleton(loaded.skeleton);
-  annotation.photo_size = photo.color.size();
+  annotation.photo_size = size;
   return annotation;
 }
 
