@@ -57,6 +57,17 @@ class Stylize(CliTest):
         for node in json.loads(pathlib.Path(self.path("s.json")).read_text())["nodes"]:
             self.assertTrue(drawn[round(node[1]), round(node[0])])
 
+    def test_what_is_transparent_is_empty(self):
+        lines = {}
+        for ground in [0, 255]:  # what lies under the transparency
+            pixels = numpy.full((90, 120, 4), ground, "uint8")
+            pixels[..., 3] = 0
+            pixels[20:70, 30:90] = [40, 40, 40, 255]
+            Image.fromarray(pixels).save(self.path("cut_out.png"))
+            self.ok("stylize", self.path("cut_out.png"), "--scale", "1", "--count-endpoints", "200", "-o", self.path("s.json"))
+            lines[ground] = self.digest(self.path("s.json"))
+        self.assertEqual(lines[0], lines[255])
+
     def test_every_metric_gets_the_same_ends(self):
         photo, seen = stripes(self.path("p.png")), set()
         for metric in ("sum", "partial", "full", "power", "mix"):

@@ -208,7 +208,16 @@ struct ScaledPicture {
 };
 
 ScaledPicture load_scaled(const StylizeRequest& request) {
-  ScaledPicture out{load_image(request.picture, request.limits).color, {}, 1.0};
+  LoadedImage image = load_image(request.picture, request.limits);
+  ScaledPicture out{std::move(image.color), {}, 1.0};
+  if (!image.alpha.empty()) {
+    const float empty = request.importance.light ? 0.0f : 1.0f;  // of no importance
+    const Rgb ground{empty, empty, empty};
+    for (std::size_t i = 0; i < out.color.pixels().size(); ++i) {
+      const float opacity = image.alpha.pixels()[i] / 255.0f;
+      out.color.pixels()[i] = opacity * out.color.pixels()[i] + (1.0f - opacity) * ground;
+    }
+  }
   if (!request.mask.empty()) out.allowed = load_mask(request.mask, request.limits);
   if (!out.allowed.empty() && out.allowed.size() != out.color.size()) {
     throw InputError(printable(request.mask, 300), "has another size than the picture; both must be the same");
