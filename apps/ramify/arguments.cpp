@@ -23,8 +23,9 @@ void add_field(CLI::App& app, const std::shared_ptr<std::vector<OptionField>>& f
   CLI::Option* option = nullptr;
   if (const auto* value = std::get_if<bool*>(&first.value)) {
     const bool turns_off = **value;
-    option = app.add_flag_function((turns_off ? "--no-" : "--") + first.name,
-                                   [assign, turns_off](std::int64_t) { assign(turns_off ? "false" : "true"); });
+    option = app.add_flag_function((turns_off ? "--no-" : "--") + first.name, [assign, turns_off](std::int64_t given) {
+      assign((given > 0) == turns_off ? "false" : "true");
+    });
     option->description((turns_off ? "Switch off: " : "") + first.help);
   } else {
     option = app.add_option_function<std::string>("--" + first.name, assign);
@@ -36,7 +37,8 @@ void add_field(CLI::App& app, const std::shared_ptr<std::vector<OptionField>>& f
       kind = first.unit.empty() ? "NUMBER" : first.unit;
     }
     option->type_name(kind);
-    option->description(first.help + " [" + get_text(first) + "]");
+    const std::string standard = get_text(first);
+    option->description(first.help + (standard.empty() ? "" : " [" + standard + "]"));
     option->trigger_on_parse();
   }
   option->group(group);

@@ -228,7 +228,7 @@ void add_figure(CLI::App& root, Chosen& chosen) {
               "  ramify figure heart.png -o heart.json && ramify render builtin:lightning heart.json -o heart_bolt.png");
   app->callback([&chosen, a, app] {
     if (a->preset != "list") {
-      if (a->figure.bitmap.empty() && !is_given(*app, "text")) throw CLI::RequiredError("bitmap");
+      if (a->figure.bitmap.empty() && !is_given(*app, "text")) throw CLI::RequiredError("a bitmap or --text");
       if (a->output.empty()) throw CLI::RequiredError("--output");
       apply(*app, *a, {"smooth", "flow"});
       check_figure_effects(*app, *a);

@@ -21,30 +21,63 @@ namespace {
 using namespace ramify;
 using namespace ramify::app;
 
-// "--tropsim" → " Did you mean --tropism?", from the words the parser knows at this place.
-std::string suggestion(const CLI::App& root, const std::vector<std::string>& words) {
-  const CLI::App* verb = &root;
-  for (const CLI::App* sub : root.get_subcommands()) verb = sub;
-  std::vector<std::string> known;
-  if (verb == &root) {
-    for (const CLI::App* sub : root.get_subcommands([](const CLI::App*) { return true; })) known.push_back(sub->get_name());
+bool is_option(const std::string& word) {
+  return word.size() > 1 && word[0] == '-';
+}
+
+std::vector<const CLI::App*> all_verbs(const CLI::App& root) {
+  return root.get_subcommands([](const CLI::App*) { return true; });
+}
+
+std::vector<std::string> option_names(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
-  for (const CLI::Option* option : verb->get_options()) {
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  return names;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest_word(word, known);
+  return near.empty() ? "" : " Did you mean " + near + "?";
+}
+
+// What is wrong with the first of the words that a verb does not know.
+std::string unknown_word(const CLI::App& root, const CLI::App& verb) {
+  const std::vector<std::string> left = verb.remaining();
+  const auto option = std::find_if(left.begin(), left.end(), is_option);
+  if (option == left.end()) return "'" + printable(left.front(), 60) + "' is one word too many.";
+  const std::string name = option->substr(0, option->find('='));
+  std::string message = "unknown option " + printable(name, 60) + ".";
+  const std::string near = did_you_mean(name, option_names(verb));
+  if (!near.empty()) return message + near;
+  std::string others;
+  for (const CLI::App* other : all_verbs(root)) {
+    const std::vector<std::string> names = option_names(*other);
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      others += (others.empty() ? "" : ", ") + other->get_name();
   }
-  for (const std::string& word : words) {
-    const std::string near = nearest_word(word.substr(0, word.find('=')), known);
-    if (!near.empty() && near != word) return " Did you mean " + near + "?";
-  }
-  return "";
+  return others.empty() ? message : message + " It is an option of " + others + ".";
+}
+
+std::string no_verb(const CLI::App& root, const std::vector<std::string>& words) {
+  if (words.empty() || is_option(words.front())) return "name a verb first, such as synth or trace.";
+  std::vector<std::string> names;
+  for (const CLI::App* verb : all_verbs(root)) names.push_back(verb->get_name());
+  return "there is no verb '" + printable(words.front(), 60) + "'." + did_you_mean(words.front(), names);
 }
 
 int usage_error(const CLI::App& root, const Chosen& chosen, const CLI::ParseError& error, const std::vector<std::string>& words) {
   std::string message = printable(error.what(), 400);
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error)) {
-    message += suggestion(root, words);
-  }
   const auto verbs = root.get_subcommands();
+  if (verbs.empty())
+    message = no_verb(root, words);
+  else if (dynamic_cast<const CLI::ExtrasError*>(&error) && !verbs.back()->remaining().empty())
+    message = unknown_word(root, *verbs.back());
+  else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    const bool twice = message.find("At Most") != std::string::npos;
+    message = message.substr(0, message.find(':')) + (twice ? ": is given more than once" : ": a value must follow");
+  }
   message += " (see ramify " + (verbs.empty() ? std::string() : verbs.back()->get_name() + " ") + "--help)";
   return report_error(chosen.shared, ExitCode::Usage, message);
 }
@@ -96,6 +129,12 @@ int main(int argc, char** argv) {
     return usage_error(root, chosen, error, words);
   } catch (const Error& error) {
     return report_error(chosen.shared, error.code(), error.what());
+  }
+  for (const CLI::Option* option : root.get_subcommands().back()->get_options()) {
+    const std::vector<std::string>& values = option->results();
+    if (option->get_name() == "--palette" || std::find(values.begin(), values.end(), "") == values.end()) continue;
+    return report_error(chosen.shared, ExitCode::Usage,
+                        option->get_name() + ": is empty; give it a value or leave it out");
   }
   return run_verb(chosen.shared, chosen.work);
 }

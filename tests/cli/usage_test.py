@@ -22,6 +22,29 @@ class Usage(CliTest):
         self.fails(2, "Did you mean --tropism?", "synth", self.exemplar, "-o", "a.png", "--tropsim", "1")
         self.fails(2, "--help", "synth")
         self.fails(2, "--help")
+        self.fails(2, ["no verb 'snyth'"], "snyth")
+        self.fails(2, ["unknown option --tropsim"], "synth", self.exemplar, "-o", "a.png", "--tropsim", "1")
+        self.fails(2, ["unknown option --thinnest", "option of figure"], "synth", self.exemplar, "-o", "a.png", "--thinnest", "1")
+        done = self.fails(2, "'j.json' is one word too many", "dendrite", "j.json", "-o", "a.json")
+        self.assertNotIn("Did you mean", done.stderr)
+        self.fails(2, "--output: a value must follow", "synth", self.exemplar, "-o")
+        self.fails(2, "more than once", "synth", self.exemplar, "-o", "a.png", "-o", "b.png")
+        self.fails(2, "--text", "figure", "-o", "a.svg")
+
+    def test_an_empty_value_is_no_value(self):
+        self.fails(2, "--text: is empty", "dendrite", "--text", "", "-o", "a.json")
+        self.fails(2, "--density: is empty", "grow", self.exemplar, "--density", "", "-o", "a.json")
+        self.fails(2, "photo: is empty", "trace", "", "-o", "a.ramify.json")
+        skeleton = self.path("s.json")
+        self.ok("dendrite", "--size", "40x40", "--count-endpoints", "4", "-o", skeleton)
+        self.ok("paint", skeleton, "--palette", "", "-o", "a.svg")
+
+    def test_flags_can_be_denied(self):
+        plain, denied = self.path("plain.json"), self.path("denied.json")
+        words = ["dendrite", "--size", "40x40", "--count-endpoints", "4", "-o"]
+        self.ok(*words, plain)
+        self.ok(*words, denied, "--edge-weights=false")
+        self.assertEqual(self.digest(plain), self.digest(denied))
 
     def test_numbers(self):
         out = ("-o", "a.png")
@@ -36,6 +59,7 @@ class Usage(CliTest):
         self.fails(2, "--depth", "synth", self.exemplar, *out, "--depth", "12")
         self.fails(2, "--depth", "synth", self.exemplar, "-o", "a.jpg", "--depth", "16")
         self.fails(2, "--background", "synth", self.exemplar, *out, "--background", "blue")
+        self.fails(2, "from 1 to 100000\n", "synth", self.exemplar, *out, "--count", "0")
 
     def test_canvas_limit_is_known_before_work(self):
         self.fails(5, ["MiB", "limit"], "synth", self.exemplar, "-o", "a.png", "--size", "1000000x1000000", timeout=5)

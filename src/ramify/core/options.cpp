@@ -19,11 +19,18 @@ OptionField make_number(std::string name, T& value, double low, double high, std
   return field;
 }
 
+// Without an exponent where people count: 100000, not 1e+05.
+std::string plain_text(double value) {
+  constexpr double kLongest = 1e12;
+  return std::trunc(value) == value && std::abs(value) <= kLongest ? std::to_string(static_cast<long long>(value))
+                                                                   : number_text(value);
+}
+
 std::string range_text(const OptionField& field) {
-  const std::string unit = field.unit.empty() ? "" : " " + field.unit;
+  const std::string unit = field.unit.empty() || field.unit == "N" ? "" : " " + field.unit;  // N is a count
   if (std::isinf(field.low) && std::isinf(field.high)) return "a number" + (unit.empty() ? "" : " in" + unit);
-  if (std::isinf(field.high)) return "at least " + number_text(field.low) + unit;
-  return "from " + number_text(field.low) + " to " + number_text(field.high) + unit;
+  if (std::isinf(field.high)) return "at least " + plain_text(field.low) + unit;
+  return "from " + plain_text(field.low) + " to " + plain_text(field.high) + unit;
 }
 
 std::string list_text(const std::vector<std::string>& names) {
