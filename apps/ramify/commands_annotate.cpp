@@ -49,7 +49,7 @@ void add_trace(CLI::App& root, Chosen& chosen) {
     chosen.work = [&chosen, a](const Monitor& monitor) {
       check_extension("output", a->output, {".json"});
       check_options(describe(a->options));
-      check_outputs({a->output}, {a->photo});
+      check_outputs(chosen.shared, {a->output}, {a->photo});
       if (keep_existing(chosen, a->output)) return Outcome{{}, {a->output}, ""};
       const Photo photo = load_photo(a->photo, chosen.shared.load_limits(), monitor.stage("load", 0.0, 0.1));
       write_annotation(a->output, trace_photo(photo, a->options, monitor.stage("trace", 0.1, 1.0)), photo);
@@ -79,7 +79,7 @@ void add_rectify(CLI::App& root, Chosen& chosen) {
       if (points.size() != 4) {
         throw OptionError("corners", "'" + printable(a->corners, 100) + "'", "expected four points, got " + std::to_string(points.size()));
       }
-      check_outputs({a->output}, {a->photo, a->back});
+      check_outputs(chosen.shared, {a->output}, {a->photo, a->back});
       if (keep_existing(chosen, a->output)) return Outcome{{}, {a->output}, ""};
       const Photo photo = load_photo(a->photo, chosen.shared.load_limits(), monitor.stage("load", 0.0, 0.1));
       const Rectification flat = rectification_from_corners({points[0], points[1], points[2], points[3]}, chosen.shared.limit_pixels);
@@ -120,7 +120,7 @@ void add_complete(CLI::App& root, Chosen& chosen) {
     chosen.work = [&chosen, a](const Monitor& monitor) {
       check_extension("output", a->output, kPictureExtensions);
       check_options(describe(a->options));
-      check_outputs({a->output}, {a->photo, a->mask});
+      check_outputs(chosen.shared, {a->output}, {a->photo, a->mask});
       if (keep_existing(chosen, a->output)) return Outcome{{}, {a->output}, ""};
       const Photo photo = load_photo(a->photo, chosen.shared.load_limits(), monitor.stage("load", 0.0, 0.05));
       Mask hole = load_mask(a->mask, chosen.shared.load_limits());
@@ -156,7 +156,7 @@ void add_exemplar(CLI::App& root, Chosen& chosen) {
       const SyntheticKind kind = synthetic_kind(a->kind);
       const Size size = a->size.empty() ? natural_size(kind) : parse_size("size", a->size);
       const std::vector<std::string> outputs{a->output + ".png", a->output + ".ramify.json", a->output + "_mask.png"};
-      check_outputs(outputs, {});
+      check_outputs(chosen.shared, outputs, {});
       if (chosen.shared.no_clobber && file_exists(outputs[0]) && file_exists(outputs[1]) && file_exists(outputs[2])) {
         return Outcome{{}, outputs, ""};
       }

@@ -137,6 +137,7 @@ void add_info(CLI::App& root, Chosen& chosen) {
   app->callback([&chosen, a] {
     if (a->input.empty() && !a->limits) throw CLI::RequiredError("input");
     chosen.work = [&chosen, a](const Monitor& monitor) {
+      check_outputs(chosen.shared, {}, {a->input});
       Json facts;
       if (a->limits) facts = limit_facts();
       else if (is_builtin(a->input)) facts = builtin_facts(a->input, monitor);
@@ -165,7 +166,7 @@ void add_convert(CLI::App& root, Chosen& chosen) {
               "  ramify convert photo.tif -o photo.png");
   app->callback([&chosen, a] {
     chosen.work = [&chosen, a](const Monitor& monitor) {
-      check_outputs({a->output}, {a->input});
+      check_outputs(chosen.shared, {a->output}, {a->input});
       if (chosen.shared.no_clobber && file_exists(a->output)) return Outcome{{}, {a->output}, ""};
       if (is_picture_file(a->input)) {
         check_image_name(a->output);
@@ -204,7 +205,7 @@ void add_compare(CLI::App& root, Chosen& chosen) {
   app->callback([&chosen, request, output] {
     chosen.work = [&chosen, request, output](const Monitor& monitor) {
       check_extension("output", *output, {".html", ".svg", ".json"});
-      check_outputs({*output}, {request->first, request->second});
+      check_outputs(chosen.shared, {*output}, {request->first, request->second});
       if (chosen.shared.no_clobber && file_exists(*output)) return Outcome{{}, {*output}, ""};
       request->limits = chosen.shared.load_limits();
       write_file(*output, comparison_text(*request, *output, monitor));

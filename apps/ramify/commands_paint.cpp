@@ -73,14 +73,15 @@ void check_effects(const CLI::App& app, PaintArguments& a) {
   }
 }
 
-Outcome paint_frames(const LoadedPainting& painting, const std::string& output, bool no_clobber, const Monitor& monitor) {
+Outcome paint_frames(const LoadedPainting& painting, const std::string& output, const SharedOptions& shared,
+                     const Monitor& monitor) {
   Outcome outcome;
   const PaintingOptions& options = painting.request.options;
   for (int i = 0; i < options.frames; ++i) {
     monitor.report(static_cast<double>(i) / options.frames);
     const std::string path = numbered(output, i);
-    check_outputs({path}, painting.files);
-    if (no_clobber && file_exists(path)) {
+    check_outputs(shared, {path}, painting.files);
+    if (shared.no_clobber && file_exists(path)) {
       outcome.skipped.push_back(path);
       continue;
     }
@@ -94,7 +95,7 @@ bool makes_frames(const PaintArguments& a) { return a.request.options.animate &&
 
 Outcome save(const PaintArguments& a, const LoadedPainting& painting, const SharedOptions& shared, const Monitor& monitor) {
   if (!shared.debug_dir.empty()) save_painting(painting, 1.0, shared.debug_dir + "/painting.svg", monitor);
-  if (makes_frames(a)) return paint_frames(painting, a.output, shared.no_clobber, monitor);
+  if (makes_frames(a)) return paint_frames(painting, a.output, shared, monitor);
   if (a.request.options.animate) save_animation(painting, a.output, monitor);
   else save_painting(painting, a.request.options.growth, a.output, monitor);
   return {{a.output}, {}, ""};
@@ -110,7 +111,7 @@ Outcome paint(PaintArguments& a, const SharedOptions& shared, const Monitor& mon
   for (const std::string& picture : {a.request.over, a.request.fill}) {
     if (!picture.empty()) inputs.push_back(picture);
   }
-  check_outputs({a.output}, inputs);
+  check_outputs(shared, {a.output}, inputs);
   if (!makes_frames(a) && shared.no_clobber && file_exists(a.output)) return {{}, {a.output}, ""};
   if (!shared.debug_dir.empty()) make_folder(shared.debug_dir);
   const LoadedPainting painting = load_painting(a.request, shared.seed, monitor.stage("load", 0.0, 0.3));
@@ -155,10 +156,10 @@ Outcome figure(FigureArguments& a, const SharedOptions& shared, const Monitor& m
     if (!input.empty()) inputs.push_back(input);
   }
   if (!a.skeleton_file.empty()) outputs.push_back(a.skeleton_file);
-  check_outputs(outputs, inputs);
+  check_outputs(shared, outputs, inputs);
   if (!makes_frames(a) && shared.no_clobber && std::all_of(outputs.begin(), outputs.end(), file_exists)) return {{}, outputs, ""};
   const LoadedFigure loaded = load_figure(a.figure, shared.seed, monitor.stage("figure", 0.0, 0.6));
-  check_outputs(outputs, loaded.files);
+  check_outputs(shared, outputs, loaded.files);
   if (!shared.debug_dir.empty()) {
     make_folder(shared.debug_dir);
     save_figure_intermediates(loaded.figure, shared.debug_dir);

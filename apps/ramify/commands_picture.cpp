@@ -2,7 +2,6 @@
 // The verbs that make pictures and skeletons: synth, grow, render, replay.
 #include <algorithm>
 #include <memory>
-#include <tuple>
 
 #include "commands.h"
 #include "outputs.h"
@@ -92,18 +91,23 @@ Outcome make_all(PictureArguments& a, const SharedOptions& shared, const std::st
   a.request.exemplar.allow_other_photo = shared.allow_other_photo;
   a.request.exemplar.limits = shared.load_limits();
   check_request(a.request);
+  const auto named = [&](int i) {
+    PictureArguments one = a;
+    for (std::string* path : {&one.output, &one.skeleton_file, &one.mask_file, &one.radius_file, &one.report_file}) {
+      if (!path->empty() && a.count > 1) *path = numbered(*path, i);
+    }
+    return one;
+  };
+  check_outputs(shared, all_outputs(named(0)), {});
   if (!shared.debug_dir.empty()) make_folder(shared.debug_dir);
   const LoadedRequest loaded = load_request(a.request, monitor.stage("load", 0.0, a.count == 1 ? 0.3 : 0.3 / a.count));
   Outcome outcome;
   for (int i = 0; i < a.count; ++i) {
-    const auto name = [&](const std::string& path) { return path.empty() || a.count == 1 ? path : numbered(path, i); };
-    const PictureFiles files{name(a.output), name(a.skeleton_file), name(a.mask_file), name(a.radius_file),
-                             name(a.report_file), name(shared.debug_dir)};
-    PictureArguments named = a;
-    std::tie(named.output, named.skeleton_file, named.mask_file, named.radius_file, named.report_file) =
-        std::tie(files.picture, files.skeleton, files.mask, files.radius, files.report);
-    const std::vector<std::string> outputs = all_outputs(named);
-    check_outputs(outputs, loaded.files);
+    const PictureArguments one = named(i);
+    const std::string debug_folder = shared.debug_dir.empty() || a.count == 1 ? shared.debug_dir : numbered(shared.debug_dir, i);
+    const PictureFiles files{one.output, one.skeleton_file, one.mask_file, one.radius_file, one.report_file, debug_folder};
+    const std::vector<std::string> outputs = all_outputs(one);
+    check_outputs(shared, outputs, loaded.files);
     if (shared.no_clobber && std::all_of(outputs.begin(), outputs.end(), file_exists)) {
       outcome.skipped.insert(outcome.skipped.end(), outputs.begin(), outputs.end());
       continue;
@@ -139,7 +143,9 @@ Outcome replay_painting(const Recipe& recipe, const std::vector<std::string>& fo
                         const SharedOptions& shared, const Monitor& monitor) {
   PaintingRequest request = painting_from_recipe(recipe, folders);
   check_replayed(request, output, shared);
-  return save_again(load_painting(request, recipe.seed, monitor.stage("load", 0.0, 0.3)), output, monitor.stage("paint", 0.3, 1.0));
+  const LoadedPainting painting = load_painting(request, recipe.seed, monitor.stage("load", 0.0, 0.3));
+  check_outputs(shared, {output}, painting.files);
+  return save_again(painting, output, monitor.stage("paint", 0.3, 1.0));
 }
 
 Outcome replay_figure(const Recipe& recipe, const std::vector<std::string>& folders, const std::string& output, const SharedOptions& shared,
@@ -147,6 +153,7 @@ Outcome replay_figure(const Recipe& recipe, const std::vector<std::string>& fold
   FigureRequest request = figure_from_recipe(recipe, folders);
   check_replayed(request.painting, output, shared);
   const LoadedFigure figure = load_figure(request, recipe.seed, monitor.stage("figure", 0.0, 0.6));
+  check_outputs(shared, {output}, figure.files);
   const Monitor part = monitor.stage("paint", 0.6, 1.0);
   return save_again(paint_figure(request, figure, part), output, part);
 }
@@ -166,7 +173,7 @@ void add_synth(CLI::App& root, Chosen& chosen) {
   add_shared(*app, chosen.shared);
   app->footer("Examples:\n  ramify synth builtin:lightning -o bolt.png\n"
               "  ramify synth river.ramify.json --seed 7 --count 9 -o delta.png --mask delta_mask.png\n"
-              "  ramify synth photo.jpg --annotation auto --density letter.png -o letter.png");
+              "  ramify synth photo.jpg --annotation auto --density letter.png -o letters.png");
   app->callback([&chosen, a] {
     chosen.work = [&chosen, a](const Monitor& m) { return make_all(*a, chosen.shared, "synth", kPictureExtensions, m); };
   });
@@ -226,8 +233,8 @@ void add_replay(CLI::App& root, Chosen& chosen) {
   app->callback([&chosen, a] {
     chosen.work = [&chosen, a](const Monitor& monitor) {
       check_extension("output", a->output, kReplayed);
-      check_outputs({a->output}, {a->input});
       const SharedOptions& shared = chosen.shared;
+      check_outputs(shared, {a->output}, {a->input});
       if (shared.no_clobber && file_exists(a->output)) return Outcome{{}, {a->output}, ""};
       const Recipe recipe = load_recipe(a->input, shared.load_limits());
       if (recipe.version != RAMIFY_VERSION && !a->any_version) {
@@ -239,7 +246,7 @@ void add_replay(CLI::App& root, Chosen& chosen) {
       if (recipe.verb == "moss") {
         MossRequest request = moss_from_recipe(recipe, folders);
         request.limits = shared.load_limits();
-        check_outputs({a->output}, {request.picture});
+        check_outputs(shared, {a->output}, {request.picture});
         paint_moss(request, recipe.seed, a->output, monitor);
         return Outcome{{a->output}, {}, ""};
       }
@@ -247,7 +254,7 @@ void add_replay(CLI::App& root, Chosen& chosen) {
       if (recipe.verb == "paint") return replay_painting(recipe, folders, a->output, shared, monitor);
       check_extension("output", a->output, kPictureExtensions);
       const LoadedRequest loaded = load_recipe_request(recipe, folders, shared.load_limits(), monitor.stage("load", 0.0, 0.3));
-      check_outputs({a->output}, loaded.files);
+      check_outputs(shared, {a->output}, loaded.files);
       const Picture picture = make_picture(loaded, recipe.seed, monitor.stage(recipe.verb, 0.3, 1.0));
       save_picture(loaded, picture, {a->output, "", "", "", "", ""}, monitor);
       return Outcome{{a->output}, {}, ""};

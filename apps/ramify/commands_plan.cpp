@@ -31,7 +31,7 @@ Outcome grow_paths(DendriteArguments& a, const SharedOptions& shared, const Moni
   check_extension("output", a.output, kSkeletons);
   check_options(describe(a.request));
   a.request.limits = shared.load_limits();
-  check_outputs({a.output}, input_files(a.request));
+  check_outputs(shared, {a.output}, input_files(a.request));
   if (kept(shared, a.output)) return {{}, {a.output}, ""};
   check_dendrite(a.request);
   if (a.request.aggregate.walkers > 0) {
@@ -62,7 +62,7 @@ struct MossArguments {
 Outcome grow_over(MossArguments& a, const SharedOptions& shared, const Monitor& monitor) {
   check_extension("output", a.output, kPaintings);
   a.request.limits = shared.load_limits();
-  check_outputs({a.output}, {a.request.picture});
+  check_outputs(shared, {a.output}, {a.request.picture});
   if (kept(shared, a.output)) return {{}, {a.output}, ""};
   paint_moss(a.request, shared.seed, a.output, monitor);
   return {{a.output}, {}, ""};
@@ -90,7 +90,7 @@ Outcome stylize_paths(StylizeArguments& a, const SharedOptions& shared, const Mo
   check_use(a.request);
   std::vector<std::string> outputs;
   for (int i = 0; i < a.request.layers; ++i) outputs.push_back(a.request.layers == 1 ? a.output : numbered(a.output, i));
-  check_outputs(outputs, input_files(a.request));
+  check_outputs(shared, outputs, input_files(a.request));
   if (std::all_of(outputs.begin(), outputs.end(), [&](const std::string& path) { return kept(shared, path); })) return {{}, outputs, ""};
   const StylizedPicture made = stylize_picture(a.request, shared.seed, monitor);
   if (!shared.debug_dir.empty()) {

@@ -2,15 +2,27 @@
 #include "outputs.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 
+#include "arguments.h"
 #include "ramify/core/error.h"
 
 namespace ramify::app {
 namespace fs = std::filesystem;
+namespace {
+
+bool same_place(const std::string& a, const std::string& b) {
+  struct stat first {}, second {};
+  return fs::path(a).filename() == fs::path(b).filename() && stat(folder_of(a).c_str(), &first) == 0 &&
+         stat(folder_of(b).c_str(), &second) == 0 && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+}  // namespace
 
 std::string numbered(const std::string& path, int index) {
   char number[16];
@@ -45,7 +57,9 @@ void check_extension(const std::string& option, const std::string& path, const s
   throw OptionError(option, "'" + printable(path, 200) + "'", "the name must end in one of " + list);
 }
 
-void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+void check_outputs(const SharedOptions& shared, std::vector<std::string> outputs,
+                   const std::vector<std::string>& inputs) {
+  if (!shared.timings.empty()) outputs.push_back(shared.timings);
   for (const std::string& output : outputs) {
     const std::string shown = printable(output, 300);
     struct stat out {};
@@ -65,10 +79,15 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
     if (stat(folder_of(output).c_str(), &folder) != 0 || !S_ISDIR(folder.st_mode)) {
       throw OutputError(shown, "the folder does not exist; create it first");
     }
+    const bool kept = shared.no_clobber && file_exists(output);
+    if (!kept && access(folder_of(output).c_str(), W_OK | X_OK) != 0) {
+      throw OutputError(shown, errno == EROFS ? "the file system is read-only; choose another folder"
+                                              : "no permission to write there; choose another folder");
+    }
   }
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (outputs[i] == outputs[j]) throw OutputError(printable(outputs[i], 300), "is named for two outputs");
+      if (same_place(outputs[i], outputs[j])) throw OutputError(printable(outputs[i], 300), "is named for two outputs");
     }
   }
 }

@@ -7,6 +7,8 @@
 
 namespace ramify::app {
 
+struct SharedOptions;
+
 // "out.png" for picture 3 of several: "out_0003.png".
 std::string numbered(const std::string& path, int index);
 
@@ -17,8 +19,10 @@ bool has_extension(const std::string& path, const std::vector<std::string>& allo
 // Throws OptionError for a name whose extension is none of `allowed` (".png"), so that long work does not end in a typo.
 void check_extension(const std::string& option, const std::string& path, const std::vector<std::string>& allowed);
 
-// Throws OutputError when an output is also an input, is a folder or symbolic link, or its folder is missing.
-void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+// Throws OutputError when an output, or the file of --timings, is also an input or another output, is a folder or
+// symbolic link, or its folder is missing or cannot be written to.
+void check_outputs(const SharedOptions& shared, std::vector<std::string> outputs,
+                   const std::vector<std::string>& inputs);
 
 bool file_exists(const std::string& path);
 

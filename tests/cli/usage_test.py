@@ -72,12 +72,52 @@ class Usage(CliTest):
         os.mkdir(self.path("folder.png"))
         self.fails(4, "is a folder", "synth", self.exemplar, "-o", "folder.png")
         self.fails(4, "too long", "synth", self.exemplar, "-o", "x" * 300 + ".png")
+        self.fails(4, "two outputs", "synth", self.exemplar, "-o", "a.png", "--mask", "./a.png")
+
+    def test_outputs_are_checked_before_inputs_are_read(self):
+        broken = self.path("broken.ramify.json", b"{")
+        self.fails(4, "folder does not exist", "synth", broken, "-o", "missing/a.png")
+        self.fails(4, "folder does not exist", "dendrite", "-o", "a.json", "--timings", "missing/t.json")
+
+    def test_a_locked_folder_is_known_before_work(self):
+        os.mkdir(self.path("locked"), 0o555)
+        os.chmod(self.dir, 0o755)
+        user = {"user": 65534} if os.getuid() == 0 else {}  # to root nothing is locked
+        try:
+            self.ok("--version", **user)
+        except PermissionError:
+            self.skipTest("the program lies where only root can run it")
+        self.fails(4, "no permission", "synth", self.path("broken.ramify.json", b"{"), "-o", "locked/a.png", **user)
+
+    def test_inputs_are_there_before_work(self):
+        for option in ["--density", "--guide", "--regions"]:
+            self.fails(3, "missing.png: no such file", "grow", self.path("broken.ramify.json", b"{"), option, "missing.png", "-o", "a.json")
 
     def test_the_input_is_never_overwritten(self):
         before = self.digest(self.photo)
         done = self.run_cli("synth", self.exemplar, "-o", self.photo)
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertEqual(self.digest(self.photo), before)
+
+    def test_timings_overwrite_nothing(self):
+        skeleton = self.path("s.json")
+        self.ok("dendrite", "--size", "40x40", "--count-endpoints", "4", "-o", skeleton)
+        before = self.digest(skeleton)
+        self.fails(4, "also an input", "paint", skeleton, "--timings", skeleton, "-o", "a.png")
+        self.fails(4, "also an input", "info", skeleton, "--timings", skeleton)
+        self.fails(4, "two outputs", "dendrite", "-o", "b.json", "--timings", "./b.json")
+        self.assertEqual(self.digest(skeleton), before)
+
+    def test_replay_overwrites_no_input(self):
+        skeleton, photo = self.path("s.json"), self.path("photo.png", pathlib.Path(self.photo).read_bytes())
+        self.ok("dendrite", "--size", "40x40", "--count-endpoints", "4", "-o", skeleton)
+        self.ok("paint", skeleton, "--over", photo, "-o", "painted.png")
+        before = self.digest(photo)
+        self.fails(4, "also an input", "replay", "painted.png", "-o", photo)
+        bitmap = self.path("bitmap.png", png(60, 60, lambda x, y: (0, 0, 0) if 10 < x < 50 and 10 < y < 50 else (255, 255, 255)))
+        self.ok("figure", bitmap, "-o", "filled.png")
+        self.fails(4, "also an input", "replay", "filled.png", "-o", bitmap)
+        self.assertEqual(self.digest(photo), before)
 
     def test_no_clobber_keeps_what_is_there(self):
         out = self.path("a.png", b"mine")

@@ -222,6 +222,9 @@ void check_request(PictureRequest& request) {
   if (!request.options.size.empty()) check_canvas(parse_canvas(request.options.size), request.limits);
   parse_roots(request.options.roots);
   check_fit(request.options.fit);
+  for (const std::string& path : {request.skeleton, request.density, request.guide, request.exemplar.regions}) {
+    if (!path.empty() && !fs::exists(path)) throw InputError(printable(path, 300), "no such file");
+  }
   const int depth = request.options.depth;
   if (depth != 0 && depth != 8 && depth != 16 && depth != 32) {
     throw OptionError("depth", std::to_string(depth), "expected 8, 16 or 32");
