@@ -121,6 +121,7 @@ void save_figure_intermediates(const FilledFigure& figure, const std::string& fo
 
 FigureRequest figure_from_recipe(const Recipe& recipe, const std::vector<std::string>& folders) {
   FigureRequest request;
+  request.painting.options = figure_painting();  // it has settings that are no options
   std::vector<OptionField> fields = describe(request.options);
   for (OptionField& field : describe(request.painting.options)) fields.push_back(field);
   for (OptionField& field : fields) {
