@@ -172,6 +172,7 @@ class Figure(CliTest):
         self.fails(2, "empty", "figure", "--text", " ", "-o", out)
         self.fails(2, "", "figure", "-o", out)
         self.fails(5, "MiB", "figure", "--text", "wide", "--text-size", "9000", "-o", out, "--limit-pixels", "1e6")
+        self.fails(5, ["lines", "--text-size"], "figure", "--text", "w" * 500, "-o", self.path("long.svg"))
 
     def test_options_without_effect_are_refused(self):
         path, _ = self.shape()

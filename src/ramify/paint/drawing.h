@@ -62,7 +62,9 @@ struct RasterOptions {
   const ColorImage* over = nullptr;  // background of the picture's size instead of the drawing's
 };
 
-// The same pixels for any number of threads. Throws LimitError for a picture with a side above 32767 px (cairo's limit).
+inline constexpr int kMostRasterSide = 32767;  // px, cairo's own limit
+
+// The same pixels for any number of threads. Throws LimitError for a picture with a side above kMostRasterSide.
 Raster rasterize(const Drawing& drawing, const RasterOptions& options, const Monitor& monitor);
 
 }  // namespace ramify

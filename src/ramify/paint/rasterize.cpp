@@ -19,8 +19,7 @@
 namespace ramify {
 namespace {
 
-constexpr int kBand = 128;        // rows drawn at a time; independent of the number of threads
-constexpr int kMostSide = 32767;  // px, cairo's own limit
+constexpr int kBand = 128;  // rows drawn at a time; independent of the number of threads
 
 struct Box {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // px, x1 and y1 beyond the last
@@ -231,9 +230,9 @@ Premultiplied glow_over_nothing(const Rgb& light) {
 }  // namespace
 
 Raster rasterize(const Drawing& drawing, const RasterOptions& options, const Monitor& monitor) {
-  if (std::max(options.size.width, options.size.height) > kMostSide) {
+  if (std::max(options.size.width, options.size.height) > kMostRasterSide) {
     throw LimitError("a side of " + std::to_string(std::max(options.size.width, options.size.height)) + " px is more than the " +
-                     std::to_string(kMostSide) + " px a painting can have; choose a smaller --scale or write .svg");
+                     std::to_string(kMostRasterSide) + " px a painting can have; choose a smaller --scale or write .svg");
   }
   const View view{options.scale, options.shift};
   const ColorImage light = emitted_light(drawing, options, view, monitor);

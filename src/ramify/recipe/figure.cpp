@@ -44,6 +44,10 @@ std::string with_line_ends(std::string text) {
 Mask text_shape(const FigureSourceOptions& source, const std::string& font_file, const LoadLimits& limits) {
   const Lettering lettering = set_text(with_line_ends(source.text), font_file, source.text_size);
   check_canvas(lettering.size, limits, kBytesPerPixel);
+  if (const int side = std::max(lettering.size.width, lettering.size.height); side > kMostRasterSide) {
+    throw LimitError("the text is " + std::to_string(side) + " px long, a picture has at most " + std::to_string(kMostRasterSide) +
+                     " px a side; break it into lines by \\n, or choose a smaller --text-size");
+  }
   Mask shape = text_mask(lettering);
   if (!source.baseline) return shape;
   const int thick = std::max(2, static_cast<int>(std::lround(0.03 * source.text_size)));
