@@ -208,6 +208,31 @@ TEST_CASE("a guided main branch keeps the exemplar's bends") {
   CHECK(far / nodes < 2.0 * bend_amplitude(style.bending));
 }
 
+TEST_CASE("a thick main branch whose guide ends in the open comes to a point") {
+  test::WavyTree tree = dense_tree();
+  tree.radius = 12.0;
+  tree.size = {400, 400};  // the main branch leaves it while it is thick
+  const Style style = style_of(tree, 11);
+  const double there = 0.66 * tree.radius;  // px, the exemplar's main as far along
+  GrowOptions options;
+  options.levels = 1;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    GrowthTarget target = canvas(700, 500);
+    target.guide_paths = {{Vec2(0, 250), Vec2(250, 255)}};
+    const Skeleton grown = grow_from_style(style, target, options, Rng(seed), Monitor{});
+    const Polyline line = branch_polyline(grown, branch_tree(grown).branches.front());
+    double way = 0.0;  // px from the tip
+    for (std::size_t i = line.points.size() - 1; i-- > 0;) {
+      way += (line.points[i + 1] - line.points[i]).norm();
+      CAPTURE(seed, way / there, line.radii[i] / there);
+      if (way < 4.0 * there) CHECK(line.radii[i] < 0.25 * there);
+      if (way < 8.0 * there) CHECK(line.radii[i] < 0.5 * there);
+    }
+    CHECK(line.radii.back() < 0.25 * there);
+    CHECK(line.points.back().x() > 200.0);
+  }
+}
+
 TEST_CASE("a ring painted in a mask is one line all the way round") {
   const Vec2 center(150, 140);
   ScalarImage map(300, 280, 0.0f);

@@ -204,6 +204,7 @@ bool overfull(const GrowthState& state, const GrowingBranch& branch) {
 // they and comes down to the exemplar's thinnest: else rivers and vessels end blunt in the open.
 void taper_tip(GrowthState& state, int number) {
   constexpr double kWay = 8.0;       // radii
+  constexpr double kGuidedWay = 16.0;  // the same for what ends where its guide does: as thick as a main branch
   constexpr double kThick = 2.0;     // times the thinnest
   constexpr double kCutShort = 4.0;  // times the thinnest: a template's own tip as wide as that is a trace cut short
   GrowingBranch& branch = state.branches[number];
@@ -215,13 +216,15 @@ void taper_tip(GrowthState& state, int number) {
   if (own_tip && (widths <= kCutShort || state.options.paper_exact)) return;
   const bool thick = widths > kThick && !state.options.paper_exact;
   const int last = static_cast<int>(learnt.tip_profile.size()) - 1, end = branch.count() - 1;
-  const int way = thick ? std::max(last, static_cast<int>(kWay * radius / state.style.step)) : last;
+  const bool guided = branch.followed != kNone && branch.followed < static_cast<int>(state.drawn.size());
+  const double way_radii = guided ? kGuidedWay : kWay;
+  const int way = thick ? std::max(last, static_cast<int>(way_radii * radius / state.style.step)) : last;
   const double pointed = thick ? 1.0 / widths : 1.0;
   for (int j = 0; j <= std::min(way, end); ++j) {
     const double share = static_cast<double>(j) / way;
     const double factor = learnt.tip_profile[static_cast<std::size_t>(std::lround(share * last))];
     branch.radii[end - j] =
-        std::max(0.5, branch.radii[end - j] * factor * (pointed + (1.0 - pointed) * std::sqrt(share)));
+        std::max(0.5, branch.radii[end - j] * factor * (pointed + (1.0 - pointed) * (guided ? share : std::sqrt(share))));
   }
 }
 
