@@ -408,7 +408,12 @@ TEST_CASE("nothing to trace is said so") {
   TraceOptions options;
   options.through = "1,2 x,3";
   CHECK_THROWS_AS(trace_photo(photo, options), OptionError);
+  options.through = "1,2 40,30 97,5";
+  CHECK_THROWS_WITH(trace_photo(photo, options), Catch::Contains("'97,5'") && Catch::Contains("outside the photo of 80x60"));
   options.through = "";
+  options.root = "40,-17";
+  CHECK_THROWS_WITH(trace_photo(photo, options), Catch::Contains("root") && Catch::Contains("'40,-17'"));
+  options.root = "";
   options.regions = "sky: 1,1 2,2 3,3";
   CHECK_THROWS_AS(trace_photo(photo, options), OptionError);
 }

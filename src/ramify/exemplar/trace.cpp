@@ -279,11 +279,29 @@ std::vector<OptionField> describe(TraceOptions& o) {
   };
 }
 
+namespace {
+
+// Strokes may start a little beyond the frame; farther out a point is a slip of the pen.
+void check_points(const std::string& option, const std::vector<Vec2>& points, Size size) {
+  constexpr double kBeyond = 16.0;  // px
+  for (const Vec2& p : points) {
+    if (p.x() >= -kBeyond && p.y() >= -kBeyond && p.x() < size.width + kBeyond && p.y() < size.height + kBeyond) continue;
+    throw OptionError(option, "'" + number_text(p.x()) + "," + number_text(p.y()) + "'",
+                      "lies outside the photo of " + std::to_string(size.width) + "x" + std::to_string(size.height) + " px");
+  }
+}
+
+}  // namespace
+
 Annotation trace_photo(const Photo& photo, const TraceOptions& options, const Monitor& monitor) {
   const CancelScope scope(monitor);
   TraceOptions checked = options;
   check_options(describe(checked));
   std::vector<Region> regions = parse_regions("regions", options.regions);
+  check_points("root", parse_points("root", options.root), photo.color.size());
+  for (const WideStroke& stroke : parse_wide_strokes("through", options.through)) {
+    check_points("through", stroke.points, photo.color.size());
+  }
   const bool by_itself = options.through.empty() || options.automatic;
   const bool find_regions = options.find_regions && regions.empty() && by_itself;
   if (find_regions) {
