@@ -20,7 +20,7 @@ constexpr double kGainSigma = 30.0;          // px
 constexpr float kGainFoot = 0.01f;           // weighted light squared: where there is no glow to measure the gain is 1
 constexpr int kWidthClasses = 5;
 constexpr float kDark = 0.03f;  // linear light
-constexpr float kNotBright = 0.05f, kBright = 0.2f;  // linear light of a plate whose errors exceed the glow before it
+constexpr float kNotBright = 0.15f, kBright = 0.35f;  // linear light of a plate whose errors exceed the glow before it
 constexpr float kGainLow = 0.1f, kGainHigh = 1.5f;
 constexpr float kCoreKept = 0.8f;    // share of the glow within a core that goes with the core: it is bright by itself
 constexpr double kPlateSigma = 3.0;  // px; the plate's own grain must not enter the layer
