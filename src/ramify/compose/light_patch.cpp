@@ -126,8 +126,8 @@ void mirror_out(const PatchFrame& frame, const std::vector<float>& foreign, Ligh
   }
 }
 
-// Thick strokes have even edges; what stands out of them on one side, brighter than twice the median as far from the
-// line, is the start of a branch, a tick of a fold. Thin ones are all zigzag and stay as they are.
+// Thick strokes have even edges; what stands out of them, brighter than the median as far from the line on the darker
+// side, is the start of a branch or a tick of a fold. Thin ones are all zigzag and stay as they are.
 void cut_spikes(const PatchFrame& frame, LightPatch& patch) {
   const double thick = std::clamp((frame.radius - kEvenFrom) / kEvenFrom, 0.0, 1.0);
   if (thick <= 0.0) return;
